@@ -87,7 +87,7 @@ std::string write_screenshot(const std::filesystem::path& path, const Session& s
     image::write_image(path, is_picture ? to_linear(session.picture()) : session.image(Side::left));
     if (right) image::write_image(*right, session.image(Side::right));
     save_camera(camera, session, state, files);
-    if (lights) save_lights(*lights, state, files);
+    if (lights) save_lights(*lights, session, state, files);
     return command_of(session, state, files, camera, lights,
                       with_suffix(path, "-again" + path.extension().string()));
 }
@@ -115,9 +115,10 @@ void load_camera(const std::filesystem::path& path, const Session& session, View
     state.camera = FlyCamera(view.camera, film.width, film.height);
 }
 
-void save_lights(const std::filesystem::path& path, const ViewState& state, const SceneFiles& files) {
+void save_lights(const std::filesystem::path& path, const Session& session, const ViewState& state,
+                 const SceneFiles& files) {
     base::check_distinct({path}, files.inputs);
-    write_text(path, state.edits.rig_text());
+    write_text(path, state.edits.rig_text(session.loaded()));
 }
 
 } // namespace nusselt::viewer

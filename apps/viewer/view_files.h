@@ -41,7 +41,8 @@ void load_camera(const std::filesystem::path& path, const Session& session, View
 
 /// Only the edits: the file is for use after the rigs that were loaded.
 /// \throws std::runtime_error if the file cannot be written, or is one of the inputs
-void save_lights(const std::filesystem::path& path, const ViewState& state, const SceneFiles& files);
+void save_lights(const std::filesystem::path& path, const Session& session, const ViewState& state,
+                 const SceneFiles& files);
 
 /// The command of the shell that renders an image of the session.
 /// \param camera, lights files of save_camera() and save_lights(); no lights if none were edited

@@ -80,8 +80,8 @@ void Viewer::add_light(LightShape shape) {
     light.center = camera.position() + distance * camera.forward();
     light.direction = shape == LightShape::panel ? -1.0 * camera.up() : normalized(camera.right());
     light.size = kSizeOfNewLight * scene.radius;
-    const double brightness =
-        scene.emitters.empty() ? 1 : luminance(to_double(state.edits.radiance_before(scene, 0)));
+    const bool has_radiance = !scene.emitters.empty() && state.edits.quantity(scene, 0) == scene::kRadiance;
+    const double brightness = has_radiance ? luminance(to_double(state.edits.emission_before(scene, 0))) : 1;
     light.radiance = to_float(brightness * scene::Double3{1, 1, 1});
     state.selected_light = state.edits.add(scene, light);
     finish_edit();

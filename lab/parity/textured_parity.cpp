@@ -19,8 +19,9 @@ namespace {
 using hostile::RandomSource;
 using proof::Exact;
 
-/// The weight of each cell is at least its rounding error. Of dimmer lights, nothing else may remain.
-constexpr Exact kSmallestWeight = 1e-8L;
+/// The projected solid angle of each cell has a rounding error of up to 1e-7. Of lights that are dimmer than this,
+/// nothing else may remain, as where a lobe hardly reaches them.
+constexpr Exact kSmallestWeight = 3e-5L;
 
 /// The layout in which shaders/parity/textured_input.glsl writes its results.
 struct TexturedOutputs {

@@ -1,5 +1,6 @@
 #pragma once
-/// Parity of techniques for polygons with textures. Their lights are made here: those of the other techniques show nothing.
+/// Parity of techniques for polygons with textures. Their lights are made here: those of the other techniques show
+/// nothing.
 
 #include "gpu/device.h"
 #include "lab/parity/parity_check.h"

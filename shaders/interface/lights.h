@@ -16,20 +16,27 @@ using uint = std::uint32_t;
 // Kinds are numbered from 0 without gaps.
 const int kPolygonKind = 0;
 const int kLineKind = 1;
-const int kLightKinds = 2;
+const int kPointKind = 2;
+const int kDistantKind = 3;
+const int kLightKinds = 4;
 
 // Specialisation constants: whether a scene has lights of a shape. Those that it has not need no code.
 const int kPolygonsConstant = kFirstLightConstant;
 const int kLinesConstant = kFirstLightConstant + 1; ///< and strips
 const int kTubesConstant = kFirstLightConstant + 2; ///< solid or open
-const int kConstantCount = kFirstLightConstant + 3;
+const int kPointsConstant = kFirstLightConstant + 3;
+const int kPointImagesConstant = kFirstLightConstant + 4; ///< points whose intensity comes from an image
+const int kDistantsConstant = kFirstLightConstant + 5;
+const int kConstantCount = kFirstLightConstant + 6;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
 const int kPolygonLightsBinding = kFirstLightBinding;
 const int kPolygonCornersBinding = kFirstLightBinding + 1;
 const int kLineLightsBinding = kFirstLightBinding + 2;
-const int kFirstBindingAfterLights = kFirstLightBinding + 3;
+const int kPointLightsBinding = kFirstLightBinding + 3;
+const int kDistantLightsBinding = kFirstLightBinding + 4;
+const int kFirstBindingAfterLights = kFirstLightBinding + 5;
 
 struct PolygonLightRecord {
     float normal[3];
@@ -51,6 +58,32 @@ struct LineLightRecord {
     uint model;
     float normal[3]; ///< of strips
     float radiance[3];
+};
+
+// Values of PointLightRecord::distribution, those of scene::PointDistribution.
+const uint kIsotropic = 0;
+const uint kSmoothCone = 1;
+const uint kQuarticCone = 2;
+const uint kOctahedralImage = 3;
+const uint kLatitudeImage = 4;
+const uint kProjectedImage = 5;
+
+struct PointLightRecord {
+    float position[3];
+    float x_axis[3];
+    float y_axis[3];
+    float z_axis[3];
+    float intensity[3];
+    uint distribution;
+    float cone_end;           ///< scene::ConeFalloff::end
+    float inverse_cone_width; ///< scene::inverse_width()
+    float half_extent[2];
+    int texture_number; ///< -1 for none
+};
+
+struct DistantLightRecord {
+    float to_light[3]; ///< unit
+    float irradiance[3];
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

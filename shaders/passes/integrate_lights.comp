@@ -27,6 +27,7 @@ void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
 }
 
 #include "passes/lights/line_integrals.glsl"
+#include "passes/lights/one_direction_integrals.glsl"
 #include "passes/lights/polygon_integrals.glsl"
 
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {

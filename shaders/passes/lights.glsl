@@ -3,7 +3,9 @@
 /// The table of kinds of light. Another kind is a row here, with files in passes/lights that this file, sample_lights.glsl and
 /// integrate_lights.comp include.
 
+#include "passes/lights/distant.glsl"
 #include "passes/lights/line.glsl"
+#include "passes/lights/point.glsl"
 #include "passes/lights/polygon.glsl"
 
 /// A row has the number of the kind in interface/lights.h and two functions:
@@ -12,7 +14,9 @@
 ///     void add_lights(inout reflected): adds what a surface reflects of all lights of this kind; each pass has its own.
 #define LIGHT_KINDS(ROW) \
     ROW(kPolygonKind, polygon_emission, add_polygons) \
-    ROW(kLineKind, line_emission, add_lines)
+    ROW(kLineKind, line_emission, add_lines) \
+    ROW(kPointKind, no_emission, add_points) \
+    ROW(kDistantKind, no_emission, add_distants)
 
 /// Without a row for each kind, the array has no elements, which does not compile.
 struct AllKinds {

@@ -129,6 +129,7 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
 }
 
 #include "passes/lights/line_samples.glsl"
+#include "passes/lights/one_direction_samples.glsl"
 #include "passes/lights/polygon_samples.glsl"
 
 vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {

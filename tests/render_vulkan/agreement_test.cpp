@@ -56,6 +56,46 @@ TEST_F(Agreement, OfTextures_Instances_AndAllKindsOfLights) {
     }
 }
 
+TEST_F(Agreement, OfLightsWithoutExtent) {
+    const scene::Scene scene = make_scene_of_light_sources(kWidth, kHeight);
+    VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
+    render::RenderSettings settings = centred(4);
+    settings.strategies = Strategies::diffuse_ltc;
+    expect_agreement(scene, renderer, settings);
+    settings.strategies = Strategies::diffuse;
+    settings.technique = Technique::ltc_analytic;
+    expect_agreement(scene, renderer, settings);
+}
+
+/// The test of the test: the image would differ without one of the lights, or with another falloff.
+TEST(LightsWithoutExtent, AllMatter) {
+    const scene::Scene scene = make_scene_of_light_sources(kWidth, kHeight);
+    const render::RenderSettings settings = centred(1);
+    const image::Image image = render_on_cpu(scene, settings);
+    const auto share_with = [&](const auto& change) {
+        scene::Scene other = scene;
+        change(other);
+        return differing_share(render_on_cpu(other, settings), image);
+    };
+    const std::size_t points = scene.lights.of<scene::PointLight>().size();
+    ASSERT_EQ(points, 6u);
+    for (std::size_t i = 0; i < points; ++i)
+        EXPECT_GT(share_with([&](scene::Scene& other) {
+                      other.lights.of<scene::PointLight>()[i].intensity = {0, 0, 0};
+                  }),
+                  kLargestDifferingShare)
+            << i;
+    EXPECT_GT(share_with([](scene::Scene& other) { other.lights.of<scene::DistantLight>().clear(); }),
+              kLargestDifferingShare);
+    using scene::PointDistribution;
+    EXPECT_GT(share_with([](scene::Scene& other) {
+                  for (scene::PointLight& light : other.lights.of<scene::PointLight>())
+                      if (light.distribution == PointDistribution::quartic_cone)
+                          light.distribution = PointDistribution::smooth_cone;
+              }),
+              kLargestDifferingShare);
+}
+
 TEST_F(Agreement, OfPhongSurfaces) {
     scene::Scene scene = make_opaque_scene(kWidth, kHeight);
     float exponent = 30;

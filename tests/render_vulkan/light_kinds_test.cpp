@@ -89,6 +89,18 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
                                                   interface::kTubesConstant}));
 
+    scene::PointLight point{.distribution = scene::PointDistribution::smooth_cone};
+    const auto shapes_with_point = [&] {
+        scene::Scene other = render_test::make_floor(4);
+        other.lights.of<scene::PointLight>() = {point};
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointsConstant});
+    point.distribution = scene::PointDistribution::projected_image;
+    EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointImagesConstant});
+    scene.lights.of<scene::PointLight>() = {point, point};
+    scene.lights.of<scene::DistantLight>().resize(3);
+
     const render_vulkan::SceneRecords records = make_scene_records(scene);
     const interface::LightRange& polygons = records.scene.lights[interface::kPolygonKind];
     const interface::LightRange& lines = records.scene.lights[interface::kLineKind];
@@ -103,6 +115,8 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     EXPECT_EQ(bytes_at(interface::kPolygonLightsBinding), sizeof(interface::PolygonLightRecord));
     EXPECT_EQ(bytes_at(interface::kPolygonCornersBinding), 2 * 4 * sizeof(scene::Float3));
     EXPECT_EQ(bytes_at(interface::kLineLightsBinding), 3 * sizeof(interface::LineLightRecord));
+    EXPECT_EQ(bytes_at(interface::kPointLightsBinding), 2 * sizeof(interface::PointLightRecord));
+    EXPECT_EQ(bytes_at(interface::kDistantLightsBinding), 3 * sizeof(interface::DistantLightRecord));
 }
 
 } // namespace

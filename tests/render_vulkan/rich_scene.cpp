@@ -2,6 +2,7 @@
 
 #include "scenes.h"
 
+#include <algorithm>
 #include <random>
 
 namespace nusselt::render_vulkan_test {
@@ -146,6 +147,40 @@ scene::Scene make_plain_scene(int width, int height) {
              {&material.diffuse_texture, &material.f0_texture, &material.roughness_texture,
               &material.alpha_texture, &material.bump_texture, &material.normal_texture})
             *use = {};
+    return scene;
+}
+
+scene::Scene make_scene_of_light_sources(int width, int height) {
+    using scene::PointDistribution;
+    scene::Scene scene = make_plain_scene(width, height);
+    // Drivers take the longer for each kind of light.
+    scene.lights.clear();
+    scene.emitters.clear();
+    std::fill(scene.triangle_light.begin(), scene.triangle_light.end(), -1);
+    const auto add = [&](auto light) {
+        light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+        scene.emitters.push_back({"light"});
+        scene.lights.of<decltype(light)>().push_back(light);
+    };
+    const scene::PointLight lamp{.position = {0.5f, -0.8f, 2.2f},
+                                 .intensity = {4, 5, 6},
+                                 .x_axis = {0, 1, 0},
+                                 .y_axis = {0.6f, 0, 0.8f},
+                                 .z_axis = {0.8f, 0, -0.6f},
+                                 .cone_angle = 85,
+                                 .full_angle = 5,
+                                 .half_extent = {0.7f, 0.4f}};
+    for (const auto distribution : {PointDistribution::isotropic, PointDistribution::smooth_cone,
+                                    PointDistribution::quartic_cone, PointDistribution::octahedral_image,
+                                    PointDistribution::latitude_image, PointDistribution::projected_image}) {
+        scene::PointLight light = lamp;
+        light.distribution = distribution;
+        light.position.x -= 0.3f * static_cast<float>(scene.emitters.size());
+        // The images of other surfaces: repeated and smooth, clamped and nearest.
+        light.texture = distribution == PointDistribution::octahedral_image ? 1 : 0;
+        add(light);
+    }
+    add(scene::DistantLight{.direction = {0.48f, 0.64f, -0.6f}, .irradiance = {2, 1, 3}});
     return scene;
 }
 

@@ -16,4 +16,7 @@ scene::Scene make_opaque_scene(int width, int height);
 /// The opaque scene without textures and copies, for which drivers compile much faster.
 scene::Scene make_plain_scene(int width, int height);
 
+/// The plain scene with a light of each kind without extent in place of its lights; images light it.
+scene::Scene make_scene_of_light_sources(int width, int height);
+
 } // namespace nusselt::render_vulkan_test

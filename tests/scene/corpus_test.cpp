@@ -96,6 +96,27 @@ Numbers bounds(const Scene& scene) {
     return box.numbers();
 }
 
+/// The integral of the distribution over all directions, by quadrature for cones [sr].
+Double3 directions_of(const PointLight& light) {
+    if (light.distribution >= PointDistribution::octahedral_image) return to_double(light.image_integral);
+    if (light.distribution == PointDistribution::isotropic) {
+        constexpr double kAll = 4 * std::numbers::pi;
+        return {kAll, kAll, kAll};
+    }
+    const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+    double sum = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double c = -1 + 2 * (i + 0.5) / kSteps;
+        const double t = std::clamp((c - cosine(light.cone_angle)) /
+                                        std::max(cosine(light.full_angle) - cosine(light.cone_angle), 1e-9),
+                                    0.0, 1.0);
+        sum += light.distribution == PointDistribution::smooth_cone ? t * t * (3 - 2 * t) : t * t * t * t;
+    }
+    const double all = 4 * std::numbers::pi * sum / kSteps;
+    return {all, all, all};
+}
+
 /// Emitted by all lights [W].
 Numbers power(const Scene& scene) {
     Double3 sum;
@@ -113,7 +134,33 @@ Numbers power(const Scene& scene) {
         const double around = light.model == TubeModel::strip ? 4 : 2 * std::numbers::pi;
         sum = sum + (std::numbers::pi * (around * radius * extent + caps)) * to_double(light.radiance);
     }
+    for (const PointLight& light : scene.lights.of<PointLight>())
+        sum = sum + per_channel_product(directions_of(light), to_double(light.intensity));
+    for (const DistantLight& light : scene.lights.of<DistantLight>())
+        sum = sum + (std::numbers::pi * scene.radius * scene.radius) * to_double(light.irradiance);
     return {sum.x, sum.y, sum.z};
+}
+
+/// Lights without extent are numbered by kind.
+void add_light_sources(const Scene& scene, std::map<std::string, Numbers>& facts) {
+    const auto add = [&](const std::string& key, std::initializer_list<Float3> vectors) {
+        for (const Float3& v : vectors) append(facts[key], v);
+    };
+    std::size_t i = 0;
+    for (const PointLight& light : scene.lights.of<PointLight>()) {
+        const std::string number = " " + std::to_string(i++);
+        add("position" + number, {light.position});
+        add("intensity" + number, {light.intensity});
+        add("axes" + number, {light.x_axis, light.y_axis, light.z_axis});
+        add("directions" + number, {to_float(directions_of(light))});
+        facts["distribution" + number] = {static_cast<double>(light.distribution)};
+        facts["cone" + number] = {light.cone_angle, light.full_angle};
+        facts["image" + number] = {static_cast<double>(light.texture), light.half_extent.x,
+                                   light.half_extent.y};
+    }
+    i = 0;
+    for (const DistantLight& light : scene.lights.of<DistantLight>())
+        add("distant " + std::to_string(i++), {light.direction, light.irradiance});
 }
 
 std::string name_of(FilterKind kind) {
@@ -183,6 +230,8 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
                                              {"emitters", count(scene.emitters)},
                                              {"polygon lights", count(scene.lights.of<PolygonLight>())},
                                              {"line lights", count(scene.lights.of<LineLight>())},
+                                             {"point lights", count(scene.lights.of<PointLight>())},
+                                             {"distant lights", count(scene.lights.of<DistantLight>())},
                                              {"bounds", bounds(scene)},
                                              {"power", power(scene)}};
     for (const Material& material : scene.materials) {
@@ -192,6 +241,7 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
         result["roughness " + material.name] = {material.roughness};
     }
     add_textures(scene, result);
+    add_light_sources(scene, result);
     append(result["camera origin"], scene.camera.origin);
     append(result["camera origin right"], scene.camera.origin_right);
     append(result["camera origin down"], scene.camera.origin_down);

@@ -75,7 +75,7 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const std::string of_light = " of light " + std::to_string(i);
         facts["name " + std::to_string(i)] = lights[i].name;
-        facts["power" + of_light] = text(luminous_power(lights[i]));
+        facts["power" + of_light] = text(luminous_power(lights[i], scene.radius));
         if (lights[i].triangles.empty()) continue;
         facts["material" + of_light] = text(lights[i].material);
         facts["bounds" + of_light] = bounds(scene, [&](std::size_t triangle) {
@@ -103,6 +103,18 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
         facts["open " + index] = light.model == TubeModel::open ? "1" : "0";
         facts["strip " + index] = light.model == TubeModel::strip ? text(light.normal) : "0";
     }
+    for (std::size_t i = 0; i < scene.lights.of<PointLight>().size(); ++i) {
+        const PointLight& light = scene.lights.of<PointLight>()[i];
+        const std::string index = std::to_string(i);
+        facts["point " + index] = text(light.position) + text(light.intensity);
+        facts["axis " + index] = text(light.z_axis);
+        facts["cone " + index] = text(light.cone_angle) + text(light.full_angle);
+        facts["distribution " + index] = text(static_cast<int>(light.distribution));
+    }
+    for (std::size_t i = 0; i < scene.lights.of<DistantLight>().size(); ++i) {
+        const DistantLight& light = scene.lights.of<DistantLight>()[i];
+        facts["distant " + std::to_string(i)] = text(light.direction) + text(light.irradiance);
+    }
 }
 
 /// Everything that an expectation may name.
@@ -114,6 +126,8 @@ std::map<std::string, std::string> facts(const Scene& scene) {
         {"emitters", text(scene.emitters.size())},
         {"polygon lights", text(scene.lights.of<PolygonLight>().size())},
         {"line lights", text(scene.lights.of<LineLight>().size())},
+        {"point lights", text(scene.lights.of<PointLight>().size())},
+        {"distant lights", text(scene.lights.of<DistantLight>().size())},
         {"triangles", text(scene.triangles.size())},
         {"emitting triangles", text(emitting)},
         {"vertices", text(scene.positions.size())},

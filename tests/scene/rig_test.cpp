@@ -2,6 +2,7 @@
 
 #include "common/source_folder.h"
 #include "scene/colour/colour_space.h"
+#include "scene/model/fingerprint.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
 #include "scene/rig/rig_text.h"
@@ -101,8 +102,10 @@ TEST_F(RigTest, PatternsMatch) {
 }
 
 TEST_F(RigTest, PrintedRigsChangeNothing) {
-    std::vector<std::filesystem::path> scenes = {std::filesystem::path(nusselt_test::kSourceFolder) /
-                                                 "tests/scene/rigs" / "lamps.pbrt"};
+    const std::filesystem::path tests = std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene";
+    std::vector<std::filesystem::path> scenes = {
+        tests / "rigs/lamps.pbrt", tests / "rigs/light-sources.pbrt", tests / "corpus/lights/spot-v3.pbrt",
+        tests / "corpus/lights/distant.pbrt", tests / "corpus/lights/projection.pbrt"};
     for (const auto& entry : std::filesystem::directory_iterator(kScenes))
         if (entry.path().extension() == ".pbrt") scenes.push_back(entry.path());
     ASSERT_GE(scenes.size(), 8u);
@@ -112,6 +115,9 @@ TEST_F(RigTest, PrintedRigsChangeNothing) {
         Scene scene = original;
         apply_text(to_rig_text(original), scene);
         expect_same_geometry(scene, original);
+        // A rig that replaces shapes brings along a material for them.
+        scene.materials = original.materials;
+        EXPECT_EQ(fingerprint(scene), fingerprint(original));
         EXPECT_EQ(to_rig_text(scene), to_rig_text(original));
     }
 }

@@ -150,6 +150,18 @@ TEST(ShippedScenes, Bollards) {
     EXPECT_EQ(scene.film.height, 720);
 }
 
+TEST(ShippedScenes, Stage) {
+    const Scene scene = shipped("stage.pbrt");
+    // Boards and curtain come first; the camera sees their right-hand sides.
+    expect_facing(scene, 0, 4, to_double(scene.camera.origin));
+    ASSERT_EQ(scene.lights.of<PointLight>().size(), 3u);
+    EXPECT_EQ(scene.lights.of<DistantLight>().size(), 1u);
+    // The first spot is above the audience and shines on the ring.
+    const PointLight& spot = scene.lights.of<PointLight>()[0];
+    const Double3 to_ring = Double3{0, 0.5, 0} - to_double(spot.position);
+    EXPECT_LT(length(cross(to_ring, to_double(spot.z_axis))), 1e-5);
+}
+
 TEST(ShippedScenes, Wall) {
     const Scene scene = shipped("wall.pbrt");
     expect_facing(scene, 0, 4, to_double(scene.camera.origin));

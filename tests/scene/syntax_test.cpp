@@ -97,9 +97,8 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
     EXPECT_EQ(without_folder(scene.warnings[0]), "scene.pbrt:2: directive 'Mystery' is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[1]),
               "scene.pbrt:7: unsupported shapes are skipped, starting here: 2 \"cone\"");
-    EXPECT_EQ(
-        without_folder(scene.warnings[2]),
-        "scene.pbrt:6: light sources other than area lights are skipped, starting here: 1 \"infinite\"");
+    EXPECT_EQ(without_folder(scene.warnings[2]),
+              "scene.pbrt:6: unsupported light sources are skipped, starting here: 1 \"infinite\"");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),

@@ -40,11 +40,17 @@ for file in $files; do
                 "#include \"$file\"" "#include \"$file\"" "$program" 'void main() {}' >"$work/source.comp"
             compile "$work/source.comp" "$file, $vertices vertices, fused $fused" -V -I"$shaders" -o "$work/source.spv"
         done
-        { printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; printf '%s\n' "$program" 'void main() {}'; } \
-            >"$work/flat.comp"
+        {
+            printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"
+            cat "$flat"
+            printf '%s\n' "$program" 'void main() {}'
+        } >"$work/flat.comp"
         compile "$work/flat.comp" "$file flattened, $vertices vertices" -V -o "$work/flat.spv"
-        { printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"; cat "$flat"; printf '%s\n' "$program" 'void main() {}'; } \
-            >"$work/flat.frag"
+        {
+            printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"
+            cat "$flat"
+            printf '%s\n' "$program" 'void main() {}'
+        } >"$work/flat.frag"
         compile "$work/flat.frag" "$file as GLSL ES, $vertices vertices"
     done
 done

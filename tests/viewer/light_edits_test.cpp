@@ -83,7 +83,7 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     edits.set(tube, red);
     const base::TemporaryFolder folder;
     const std::filesystem::path path = folder / "rig.json";
-    std::ofstream(path) << edits.rig_text();
+    std::ofstream(path) << edits.rig_text(scene_);
     scene::Scene by_rig = scene_;
     scene::apply_rig(scene::read_rig(path), by_rig);
     const scene::Scene edited = edits.applied_to(scene_);
@@ -147,7 +147,7 @@ TEST_F(LightEditsTest, ColourLightsAndKeepTheirLuminance) {
     edit.colour = Temperature{2000};
     edits.set(light, edit);
     const scene::Float3 warm = edits.applied_to(scene_).lights.of<scene::PolygonLight>().front().radiance;
-    const scene::Float3 before = edits.radiance_before(scene_, light);
+    const scene::Float3 before = edits.emission_before(scene_, light);
     EXPECT_GT(warm.x, 3 * warm.z);
     EXPECT_NEAR(luminance(to_double(warm)), luminance(to_double(before)),
                 1e-5 * luminance(to_double(before)));
@@ -176,7 +176,7 @@ TEST_F(LightEditsTest, AddAndRemoveLights) {
     const scene::Scene edited = edits.applied_to(scene_);
     ASSERT_EQ(edited.emitters.size(), count);
     EXPECT_EQ(edited.emitters.back().name, "lamp 2");
-    EXPECT_EQ(edits.rig_text().find("lamp 1"), std::string::npos);
+    EXPECT_EQ(edits.rig_text(scene_).find("lamp 1"), std::string::npos);
 }
 
 } // namespace

@@ -211,7 +211,7 @@ TEST_F(SessionTest, RigsThatWereLoadedAreNotAppliedAgain) {
     viewer.next_frame();
     const base::TemporaryFolder folder;
     const std::filesystem::path rig = folder / "rig.json";
-    save_lights(rig, viewer.state, viewer.files);
+    save_lights(rig, viewer.session, viewer.state, viewer.files);
     viewer.load_lights(rig);
     LightEdit far;
     far.move = {1e300, 0, 0};

@@ -87,10 +87,11 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
         print_message(
             "warning: --integrator is now called --light-samples; the next version removes the old name\n");
     if (scene.emitters.empty())
-        print_message(
-            "warning: the scene has no area lights, so the image is black; add lights with --lights\n");
+        print_message("warning: the scene has no lights, so the image is black; add lights with --lights\n");
+    // Lights without extent, whose emission is no radiance, have nothing to sample.
     for (const scene::LightList& list : scene.lights)
-        if (samples_visible_normals(settings.strategies) && !list.has_brdf_samples() && list.size() > 0)
+        if (samples_visible_normals(settings.strategies) && !list.has_brdf_samples() && list.size() > 0 &&
+            list.quantity() == scene::kRadiance)
             print_message(
                 "warning: {} {} are sampled by {} alone: visible normals support only polygons, as no "
                 "sample ever hits a {}\n",

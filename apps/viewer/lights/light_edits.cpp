@@ -2,6 +2,7 @@
 
 #include "scene/model/lights/light_geometry.h"
 #include "scene/model/transform.h"
+#include "scene/rig/light_edit.h"
 
 #include <nlohmann/json.hpp>
 
@@ -64,21 +65,23 @@ Double3 centroid(const scene::Lights& parts) {
     return moment.centroid();
 }
 
-scene::LightChanges changes_of(const LightEdit& edit) {
+/// \param quantity of the emission of the light
+scene::LightChanges changes_of(const LightEdit& edit, const scene::EmissionQuantity& quantity) {
     scene::LightChanges changes;
     if (edit.added) {
         changes.shape = shape_of(*edit.added);
-        changes.radiance = edit.added->radiance;
+        changes.emission = {quantity, edit.added->radiance};
     }
     if (edit.size != 1) changes.scale = Double3{edit.size, edit.size, edit.size};
     if (angle_of(edit.turn) > 0) changes.rotation = {normalized(edit.turn), angle_of(edit.turn)};
     changes.move = edit.move;
-    if (const auto* const radiance = std::get_if<scene::Float3>(&edit.colour)) changes.radiance = *radiance;
+    if (const auto* const emission = std::get_if<scene::Float3>(&edit.colour))
+        changes.emission = {quantity, *emission};
     if (const auto* const temperature = std::get_if<Temperature>(&edit.colour))
         changes.kelvin = temperature->kelvin;
-    // Rigs do not scale a radiance that they set.
-    if (changes.radiance)
-        changes.radiance = to_float(edit.brightness * to_double(*changes.radiance));
+    // Rigs do not scale an emission that they set.
+    if (changes.emission)
+        changes.emission->value = to_float(edit.brightness * to_double(changes.emission->value));
     else if (edit.brightness != 1)
         changes.scale_radiance = edit.brightness;
     changes.enabled = edit.is_enabled;
@@ -97,7 +100,8 @@ void write_changes(const scene::LightChanges& changes, nlohmann::ordered_json& e
     if (changes.rotation)
         entry["rotate"] = {{"axis", triple(changes.rotation->axis)}, {"degrees", changes.rotation->degrees}};
     entry["move"] = triple(*changes.move);
-    if (changes.radiance) entry["radiance"] = triple(to_double(*changes.radiance));
+    if (changes.emission)
+        entry[std::string(changes.emission->quantity.name)] = triple(to_double(changes.emission->value));
     if (changes.kelvin) entry["kelvin"] = *changes.kelvin;
     if (changes.scale_radiance) entry["scale_radiance"] = *changes.scale_radiance;
     entry["enabled"] = *changes.enabled;
@@ -206,14 +210,21 @@ Double3 LightEdits::center(const scene::Scene& loaded, std::size_t light) const 
     return centroid(parts_of(loaded, light, edit)) + edit.move;
 }
 
-scene::Float3 LightEdits::radiance_before(const scene::Scene& loaded, std::size_t light) const {
+const scene::EmissionQuantity& LightEdits::quantity(const scene::Scene& loaded, std::size_t light) const {
+    const scene::EmissionQuantity* const quantity = quantity_of(parts_of(loaded, light, get(light)));
+    return quantity != nullptr ? *quantity : scene::kRadiance;
+}
+
+scene::Float3 LightEdits::emission_before(const scene::Scene& loaded, std::size_t light) const {
     Double3 sum;
     double weight = 0;
     const scene::Lights parts = parts_of(loaded, light, get(light));
     for (const scene::LightList& list : parts)
         for (std::size_t i = 0; i < list.size(); ++i) {
-            sum = sum + list.emitting_area(i) * to_double(list.radiance(i));
-            weight += list.emitting_area(i);
+            const Double3 flux = list.flux_per_emission(i, loaded.radius);
+            const double part = flux.x + flux.y + flux.z;
+            sum = sum + part * to_double(list.emission(i));
+            weight += part;
         }
     return weight > 0 ? to_float((1 / weight) * sum) : scene::Float3{0, 0, 0};
 }
@@ -228,14 +239,14 @@ scene::Scene LightEdits::applied_to(const scene::Scene& loaded) const {
             entry.lights = scene::LightAddition{edit.added->name, {}, {{}}};
         else
             entry.lights = scene::Selector(light);
-        entry.changes = changes_of(edit);
+        entry.changes = changes_of(edit, quantity(loaded, light));
         rig.lights.push_back(entry);
     }
     scene::apply_rig(rig, scene);
     return scene;
 }
 
-std::string LightEdits::rig_text() const {
+std::string LightEdits::rig_text(const scene::Scene& loaded) const {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const auto& [light, edit] : edits_) {
         nlohmann::ordered_json entry;
@@ -243,7 +254,7 @@ std::string LightEdits::rig_text() const {
             entry["add"] = edit.added->name;
         else
             entry["light"] = light;
-        write_changes(changes_of(edit), entry);
+        write_changes(changes_of(edit, quantity(loaded, light)), entry);
         lights.push_back(entry);
     }
     return nlohmann::ordered_json{{"version", 1}, {"lights", lights}}.dump(2) + "\n";

@@ -41,14 +41,14 @@ struct Temperature {
     bool operator==(const Temperature&) const = default;
 };
 
-/// The colour of a light: as it was, of a black body, or a radiance. Black bodies keep the luminance.
+/// The colour of a light: as it was, of a black body, or an emission. Black bodies keep the luminance.
 using LightColour = std::variant<std::monostate, Temperature, scene::Float3>;
 
 /// The edit of one light. The defaults change nothing.
 struct LightEdit {
     scene::Double3 move = {0, 0, 0}; ///< [m]
     double size = 1;                 ///< factor on all lengths, about the centroid
-    double brightness = 1;           ///< factor on the radiance
+    double brightness = 1;           ///< factor on the emission
     bool is_enabled = true;
     /// A rotation about the centroid: its direction is the axis, its length the angle [degrees], counter-clockwise as seen
     /// from the tip of the axis.
@@ -88,15 +88,17 @@ public:
     // A light where its edit puts it.
     scene::Lights placed(const scene::Scene& loaded, std::size_t light) const;
     scene::Double3 center(const scene::Scene& loaded, std::size_t light) const; ///< the centroid
-    /// The mean radiance of a light, with its colour and brightness from before the edit.
-    scene::Float3 radiance_before(const scene::Scene& loaded, std::size_t light) const;
+    /// What the emission of a light is.
+    const scene::EmissionQuantity& quantity(const scene::Scene& loaded, std::size_t light) const;
+    /// The mean emission of a light, with its colour and brightness from before the edit.
+    scene::Float3 emission_before(const scene::Scene& loaded, std::size_t light) const;
 
     /// A copy of the loaded scene with the edits. \throws std::runtime_error if one cannot be made, such as a move beyond
     /// the largest coordinate
     scene::Scene applied_to(const scene::Scene& loaded) const;
 
     /// The light rig that does the same, see docs/lights.md.
-    std::string rig_text() const;
+    std::string rig_text(const scene::Scene& loaded) const;
 
     bool operator==(const LightEdits&) const = default;
 

@@ -237,8 +237,10 @@ std::map<std::string, Command> make_commands() {
          {1, [](Viewer& viewer, Playback&,
                 const Arguments& words) { load_camera(words[0], viewer.session, viewer.state); }}},
         {"save-lights",
-         {1, [](Viewer& viewer, Playback&,
-                const Arguments& words) { save_lights(words[0], viewer.state, viewer.files); }}},
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              save_lights(words[0], viewer.session, viewer.state, viewer.files);
+          }}},
         {"load-lights",
          {1, [](Viewer& viewer, Playback&, const Arguments& words) { viewer.load_lights(words[0]); }}},
         {"print-errors",

@@ -259,10 +259,10 @@ void Panels::draw_selected_light(Viewer& viewer) {
               "A rotation about the centroid: its vector has the direction of the axis and the length of the "
               "angle. If two numbers are 0, the third is the angle about x, y or z."));
     note(slider("size", edit_.size, 0.05, 20, "%.2f", "A factor on all lengths of the light.", kFactor));
-    note(slider("brightness", edit_.brightness, 0.01, 100, "%.2f", "A factor on the radiance.", kFactor));
+    note(slider("brightness", edit_.brightness, 0.01, 100, "%.2f", "A factor on what it emits.", kFactor));
     ImGui::BeginGroup();
     const bool has_new_colour =
-        edit_colour(state.edits.radiance_before(viewer.session.loaded(), light), edit_.colour);
+        edit_colour(state.edits.emission_before(viewer.session.loaded(), light), edit_.colour);
     ImGui::EndGroup();
     note(has_new_colour);
     if (has_new_colour && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) is_final = true;
@@ -321,7 +321,7 @@ void Panels::draw_files(Viewer& viewer) {
     act_on("load camera", "Look at the scene as a saved camera does.", "read", camera,
            [&] { load_camera(camera, viewer.session, viewer.state); });
     act_on("save lights", "Save the changes of lights as a rig for --lights.", "wrote", lights,
-           [&] { save_lights(lights, viewer.state, viewer.files); });
+           [&] { save_lights(lights, viewer.session, viewer.state, viewer.files); });
     ImGui::SameLine();
     act_on("load lights", "Apply a rig for good. Earlier changes are lost.", "read", lights,
            [&] { viewer.load_lights(lights); });

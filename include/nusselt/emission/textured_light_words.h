@@ -36,8 +36,8 @@ struct TexturedLightWords {
     }
 
     /// \param light         prepared by make_textured_light().
-    /// \param most_vertices NUSSELT_MAX_VERTICES of the shaders, 3 to 8. Cells whose part inside of the outline has more
-    ///                      vertices are always sampled by texels.
+    /// \param most_vertices NUSSELT_MAX_VERTICES of the shaders, 3 to 8. Cells whose part inside of the outline has
+    ///                      more vertices are always sampled by texels.
     /// \param words         count(light) of them, to be written.
     NUSSELT_HD static void write(const ShaderLight& light, int most_vertices, std::uint32_t* words) noexcept {
         const PyramidShape& shape = light.pyramid.shape;

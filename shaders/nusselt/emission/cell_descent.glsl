@@ -1,8 +1,8 @@
 #ifndef NUSSELT_EMISSION_CELL_DESCENT_GLSL
 #define NUSSELT_EMISSION_CELL_DESCENT_GLSL
 // Follows include/nusselt/emission/cell_descent.h @ c40f31f62291
-/// How samples descend from a cell of the lattice to a texel: DescentByProduct of include/nusselt/emission/cell_descent.h,
-/// in proportion to what texels emit times the cosine over the squared distance.
+/// How samples descend from a cell of the lattice to a texel: in proportion to what texels emit times the cosine over
+/// the squared distance. Twin of DescentByProduct in include/nusselt/emission/cell_descent.h.
 
 #include "../emission/texel_choice.glsl"
 #include "../emission/textured_light.glsl"
@@ -28,8 +28,8 @@ vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, iv
     if (parts.x == 1) weight.yw = vec2(0.0);
     if (parts.y == 1) weight.zw = vec2(0.0);
 
-    // The rule for the mean of a quadratic function: centres count 2/3, corners 1/12 each. Corners are at multiples of two
-    // steps.
+    // The rule for the mean of a quadratic function: centres count 2/3, corners 1/12 each. Corners are at multiples of
+    // two steps.
     vec2 size = 1.0 / vec2(pyramid_size_of(shape, level));
     vec2 low = vec2(at) * size;
     vec2 width = size / vec2(2 * parts);
@@ -49,7 +49,7 @@ vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, iv
     return weight * (2.0 / 3.0 * centres + 1.0 / 12.0 * corners);
 }
 
-/// Descends from a cell to a texel. With one random number per direction, the order of texels in each direction is kept.
+/// Descends from a cell to a texel. With one random number per direction, the order of texels in each direction stays.
 TexelChoice choose_texel(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
     PyramidShape shape = textured_light_shape(light);
     TexelChoice choice = TexelChoice(cell, 1.0, u);

@@ -1,9 +1,9 @@
 #ifndef NUSSELT_EMISSION_TEXTURED_CELLS_GLSL
 #define NUSSELT_EMISSION_TEXTURED_CELLS_GLSL
 // Follows include/nusselt/emission/textured_polygon.h @ 96b11e36be7f
-/// What TexturedPolygon and TexturedPolygonLtc share: they choose a cell in proportion to mean radiance times the closed
-/// form of its measure, and take a texel of busy cells. Twin of include/nusselt/emission/textured_polygon.h, with 8 x 8
-/// cells and DescentByProduct.
+/// What TexturedPolygon and TexturedPolygonLtc share: they choose a cell in proportion to mean radiance times the
+/// closed form of its measure, and take a texel of busy cells. Twin of include/nusselt/emission/textured_polygon.h,
+/// with 8 x 8 cells and DescentByProduct.
 
 #include "../core/light_sample.glsl"
 #include "../emission/cell_descent.glsl"
@@ -43,7 +43,8 @@ TexturedView textured_view_prepare(TexturePlane plane, uint light) {
     reach = nusselt_max(reach, abs(texture_plane_point_at(plane, vec2(0.0, 1.0))));
     float scale = reciprocal_power_of_two(largest_component(reach));
     self.inverse_scale = reciprocal_power_of_two(scale);
-    self.plane = TexturePlane(without_tiny(scale * plane.corner), scale * plane.side_x, scale * plane.side_y, plane.normal);
+    self.plane =
+        TexturePlane(without_tiny(scale * plane.corner), scale * plane.side_x, scale * plane.side_y, plane.normal);
     self.image = self.plane;
     self.image_area = texture_plane_area(self.plane);
     self.area = self.image_area;
@@ -87,8 +88,9 @@ bool textured_view_is_smooth(TexturedView self, CellChoice cell) {
     vec3 centre = texture_plane_point_at(self.image, middle);
     if (!(variation * dot(centre, centre) * float(kNusseltCells * kNusseltCells) > self.image_area)) return true;
 
-    vec4 corners = vec4(relative_cosine(self.image, r.low.x, r.low.y), relative_cosine(self.image, r.low.x, r.high.y),
-                        relative_cosine(self.image, r.high.x, r.low.y), relative_cosine(self.image, r.high.x, r.high.y));
+    vec2 left = vec2(relative_cosine(self.image, r.low.x, r.low.y), relative_cosine(self.image, r.low.x, r.high.y));
+    vec2 right = vec2(relative_cosine(self.image, r.high.x, r.low.y), relative_cosine(self.image, r.high.x, r.high.y));
+    vec4 corners = vec4(left, right);
     float at_centre = relative_cosine(self.image, middle.x, middle.y);
     float mean = 2.0 / 3.0 * at_centre + 1.0 / 12.0 * ((corners.x + corners.y) + (corners.z + corners.w));
     float inverse = mean > 0.0 ? 1.0 / mean : 0.0;

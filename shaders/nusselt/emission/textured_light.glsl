@@ -3,8 +3,8 @@
 // Follows include/nusselt/emission/textured_light.h @ 441090079b8d
 // Follows include/nusselt/emission/textured_light_words.h @ 1f30388c693b
 // Follows include/nusselt/emission/texture_pyramid.h @ fb50e6db8c69
-/// What sampling needs to know about a polygon with a texture, from the words that TexturedLightWords of C++ writes once
-/// per light. Twin of include/nusselt/emission/textured_light.h, texture_pyramid.h and textured_light_words.h.
+/// What sampling needs to know about a polygon with a texture, from the words that TexturedLightWords of C++ writes
+/// once per light. Twin of include/nusselt/emission/textured_light.h, texture_pyramid.h and textured_light_words.h.
 ///
 /// The words are in a buffer or an integer texture of the program, any number of lights one after another. The program
 /// says how to fetch them: it defines the function textured_light_word(), before or after the #include. For instance:
@@ -210,8 +210,8 @@ vec2 texture_part_invert(TexturePart self, vec2 at) {
     return u;
 }
 
-/// A part in space. Of a part with more than NUSSELT_MAX_VERTICES corners, it has the first ones: TexturedLightWords makes
-/// sure that nobody asks for those.
+/// A part in space. Of a part with more than NUSSELT_MAX_VERTICES corners, it has the first ones: TexturedLightWords
+/// makes sure that nobody asks for those.
 ConvexPolygon polygon_in(TexturePlane plane, TexturePart part) {
     vec3 vertices[NUSSELT_MAX_VERTICES];
     vec3 edges[NUSSELT_MAX_VERTICES];

@@ -28,8 +28,8 @@ TexturedPolygon textured_polygon_prepare(TexturePlane plane, uint light) {
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].
 float textured_polygon_measure(TexturedPolygon self) { return self.cells.sums.total; }
 
-/// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics for
-/// multiple importance sampling. Exact where the texture is constant in each cell.
+/// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
+/// for multiple importance sampling. Exact where the texture is constant in each cell.
 vec3 textured_polygon_unshadowed(TexturedPolygon self) { return textured_cells_unshadowed(self.cells); }
 
 /// The technique inside of a smooth cell.
@@ -37,7 +37,8 @@ PolygonProjectedSolidAngle textured_polygon_technique(TexturedView view, Texture
     return polygon_projected_solid_angle_prepare(polygon_in(view.plane, spot.part));
 }
 
-/// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in part.
+/// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in
+///          part.
 TexturedSample textured_polygon_sample(TexturedPolygon self, vec2 u) {
     if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;

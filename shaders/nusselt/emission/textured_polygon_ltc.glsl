@@ -5,9 +5,10 @@
 /// include/nusselt/emission/textured_polygon.h, with 8 x 8 cells and DescentByProduct.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
-/// Space: shading space with wo in the xz half-plane (shading_frame()). Samples may lie below the surface, wi.z < 0: they
-/// count, with a contribution of zero.
-/// Edge cases: nothing of the light in the lobe, black light, no area, origin in the plane of the light: pdf = 0, measure 0.
+/// Space: shading space with wo in the xz half-plane (shading_frame()). Samples may lie below the surface, wi.z < 0:
+/// they count, with a contribution of zero.
+/// Edge cases: nothing of the light in the lobe, black light, no area, origin in the plane of the light: pdf = 0,
+/// measure 0.
 
 #include "../emission/textured_cells.glsl"
 #include "../sampling/polygon_ltc.glsl"

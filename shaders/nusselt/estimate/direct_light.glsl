@@ -1,6 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_DIRECT_LIGHT_GLSL
-// Follows include/nusselt/estimate/direct_light.h @ 4af0dcf0c393
+// Follows include/nusselt/estimate/direct_light.h @ 4b9d3b0dafd3
 /// The light that a surface with a diffuse and a specular component reflects from one light, estimated without bias
 /// from a few samples. Twin of include/nusselt/estimate/direct_light.h, where the sources stand.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
 #define NUSSELT_ESTIMATE_SAMPLE_DIRECT_LIGHT_GLSL
-// Follows include/nusselt/estimate/direct_light.h @ 4af0dcf0c393
+// Follows include/nusselt/estimate/direct_light.h @ 4b9d3b0dafd3
 /// Direct light in one call, in world space, with the projected solid angle and linearly transformed cosines. Twin of
 /// the end of include/nusselt/estimate/direct_light.h.
 

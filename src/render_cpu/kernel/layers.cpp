@@ -78,23 +78,35 @@ void LayerSums::add_surface(const Surface& surface) noexcept {
     state_.normal.add(weight_ * select(surface.valid, surface.frame.n, zero));
 }
 
-void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept {
+void LayerSums::add_to_light(std::int32_t number, int lane, const float (&rgb)[3]) noexcept {
+    float* sum = sums_of(job_.scene.light_emitter[number]) + lane;
+    for (int k = 0; k < 3; ++k, sum += kLanes) {
+        float& excess = sum[3 * kLanes];
+        const float corrected = rgb[k] - excess;
+        const float next = *sum + corrected;
+        excess = (next - *sum) - corrected;
+        *sum = next;
+    }
+}
+
+void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted,
+                             const Vector& direction) noexcept {
     const Vector weighted = weight_ * emitted;
     state_.emission.add(weighted);
     if (job_.layers.lights == nullptr) return;
     const Lanes lanes = store(weighted);
+    const Lanes d = store(direction);
+    float weight[kLanes];
+    weight_.store(weight);
     for (int i = 0; i < kLanes; ++i) {
         const std::int32_t light = light_of_hit(job_.scene, hits, i);
-        if (light < 0) continue;
-        const float rgb[3] = {lanes.x[i], lanes.y[i], lanes.z[i]};
-        float* sum = sums_of(job_.scene.light_emitter[light]) + i;
-        for (int k = 0; k < 3; ++k, sum += kLanes) {
-            float& excess = sum[3 * kLanes];
-            const float corrected = rgb[k] - excess;
-            const float next = *sum + corrected;
-            excess = (next - *sum) - corrected;
-            *sum = next;
-        }
+        if (light >= 0) add_to_light(light, i, {lanes.x[i], lanes.y[i], lanes.z[i]});
+        if (!meets_nothing(hits, i)) continue;
+        visit_background(
+            job_.scene, {d.x[i], d.y[i], d.z[i]}, [&](std::int32_t number, const scene::Float3& radiance) {
+                add_to_light(number, i,
+                             {weight[i] * radiance.x, weight[i] * radiance.y, weight[i] * radiance.z});
+            });
     }
 }
 

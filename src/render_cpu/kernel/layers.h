@@ -70,7 +70,9 @@ public:
     void add_surface(const Surface& surface) noexcept;
 
     /// Adds the radiance of lights that camera rays hit.
-    void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted) noexcept;
+    /// \param direction of the rays, of any length
+    void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted,
+                      const Vector& direction) noexcept;
 
     /// Adds light that the surfaces reflect.
     /// \param number of the light among all lights of the scene
@@ -89,6 +91,7 @@ public:
 
 private:
     std::size_t light_sum_bytes() const noexcept;
+    void add_to_light(std::int32_t number, int lane, const float (&rgb)[3]) noexcept;
     float* sums_of(std::uint32_t emitter) const noexcept {
         return light_sums_ + render_cpu::kLightSumFloatsPerLane * kLanes * emitter;
     }

@@ -1,5 +1,8 @@
+#include "render_cpu/lights/distant_records.h"
+#include "render_cpu/lights/environment_records.h"
 #include "render_cpu/lights/light_kernel.h"
 #include "render_cpu/lights/line_records.h"
+#include "render_cpu/lights/point_records.h"
 #include "render_cpu/lights/polygon_records.h"
 
 namespace nusselt::render_cpu {
@@ -11,6 +14,16 @@ std::span<const LightKernel> light_kernels() {
          true},
         {make_line_records,
          {line_code(LaneCount<4>()), line_code(LaneCount<8>()), line_code(LaneCount<16>())},
+         false},
+        {make_point_records,
+         {point_code(LaneCount<4>()), point_code(LaneCount<8>()), point_code(LaneCount<16>())},
+         false},
+        {make_environment_records,
+         {environment_code(LaneCount<4>()), environment_code(LaneCount<8>()),
+          environment_code(LaneCount<16>())},
+         false},
+        {make_distant_records,
+         {distant_code(LaneCount<4>()), distant_code(LaneCount<8>()), distant_code(LaneCount<16>())},
          false},
     };
     return kKernels;

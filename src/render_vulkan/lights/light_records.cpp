@@ -13,7 +13,7 @@ namespace {
 using WriteLights = bool (*)(const scene::LightList& list, LightRecords& records);
 
 /// By the number of the kind in shaders/interface/lights.h.
-constexpr WriteLights kKinds[] = {write_polygons, write_lines};
+constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, write_distants};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
 } // namespace

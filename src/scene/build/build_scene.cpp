@@ -160,6 +160,7 @@ void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& 
     replace_missing_materials(scene.triangle_material, scene.materials);
     scene.lights.append(std::move(shapes.lights));
     scene.emission_textures = std::move(shapes.emission_textures);
+    scene.environment_maps = std::move(shapes.environment_maps);
 }
 
 /// Adds the objects that have triangles, and their instances.
@@ -224,6 +225,7 @@ Scene build_scene(SceneDescription description) {
     for (BakedTexture& texture : textures) scene.textures.push_back(std::move(texture.texture));
     const std::vector<std::size_t> triangle_counts = sizes_of(built, &BuiltShape::triangles);
     BuiltShape shapes = join(std::move(built), description.words.instance);
+    add_light_sources(description.light_sources, scene.textures, shapes);
     collect_warnings(shapes, description.warnings);
     take_shapes(std::move(shapes), description.sources.front().path, scene);
     add_instances(description, placed.objects, triangle_counts, scene);

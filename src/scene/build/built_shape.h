@@ -25,6 +25,7 @@ struct BuiltShape : Mesh {
     std::vector<std::uint32_t> triangle_material; ///< for each triangle ShapeDescription::material
     Lights lights;                                ///< with indices into `emitters` and `emission_textures`
     std::vector<TexturedEmission> emission_textures;
+    std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps; ///< of light sources
     std::vector<EmitterOrigin> emitters;
     std::optional<Location> first_degenerate; ///< the first shape with degenerate triangles
     std::size_t round_shapes = 0;             ///< see is_round()

@@ -9,11 +9,17 @@
 
 namespace nusselt::scene {
 
+void check_emission(const Float3& value, const EmissionQuantity& quantity, std::string_view subject,
+                    const Location& location) {
+    for (const float channel : {value.x, value.y, value.z})
+        if (!(channel >= 0 && channel <= kMaxRadiance))
+            throw SceneError(location, std::string(subject) + ": " + std::string(quantity.name) +
+                                           " must be from 0 to " + to_text(kMaxRadiance) + ", found " +
+                                           to_text(channel));
+}
+
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location) {
-    for (const float value : {radiance.x, radiance.y, radiance.z})
-        if (!(value >= 0 && value <= kMaxRadiance))
-            throw SceneError(location, std::string(subject) + ": radiance must be from 0 to " +
-                                           to_text(kMaxRadiance) + ", found " + to_text(value));
+    check_emission(radiance, kRadiance, subject, location);
 }
 
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject,

@@ -20,7 +20,12 @@ struct Emission {
     std::shared_ptr<const EmissionTexture> texture = {}; ///< null for uniform radiance
 };
 
-/// Throws SceneError at `location` unless all channels are from 0 to kMaxRadiance.
+/// Throws SceneError at `location` unless all channels of an emission are from 0 to kMaxRadiance.
+/// \param subject  what the format calls the light
+void check_emission(const Float3& value, const EmissionQuantity& quantity, std::string_view subject,
+                    const Location& location);
+
+/// The same for a radiance.
 /// \param subject  what the format calls the emission
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location);
 

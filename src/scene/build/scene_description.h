@@ -5,6 +5,7 @@
 #include "scene/build/camera.h"
 #include "scene/build/emission.h"
 #include "scene/build/geometry.h"
+#include "scene/build/light_source.h"
 #include "scene/build/limits.h"
 #include "scene/build/textures/texture_plan.h"
 #include "scene/input/named_files.h"
@@ -69,7 +70,8 @@ struct SceneDescription {
     std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>();
     std::deque<SourceFile> sources; ///< the files that locations refer to, the main file first
     FormatWords words;
-    std::deque<WorldPart> world;   ///< see add_shape()
+    std::deque<WorldPart> world; ///< see add_shape()
+    std::vector<LightSourceDescription> light_sources;
     std::size_t shapes_in_row = 0; ///< at the end of `world`: those that could be built now
     std::vector<ObjectDescription> objects;
     std::vector<InstanceDescription> instances;

@@ -11,7 +11,7 @@ inline constexpr std::size_t kMaxTexturedPolygons = 1024;
 
 /// Adds the lights of a shape whose emission has a texture. Texture coordinates must be an affine function on each light: a
 /// polygon on which they are not is split into its triangles. Where texture coordinates have no area, the light is uniform.
-void add_textured_polygons(const ShapeDescription& shape, const FormatWords& words, PolygonPartition&& partition,
-                           BuiltShape& built);
+void add_textured_polygons(const ShapeDescription& shape, const FormatWords& words,
+                           PolygonPartition&& partition, BuiltShape& built);
 
 } // namespace nusselt::scene

@@ -17,6 +17,11 @@ std::string shortened(std::string_view text, std::size_t max_bytes) {
     return std::string(text.substr(0, size)) + "...";
 }
 
+std::string with_article(std::string_view noun) {
+    const bool begins_with_vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+    return (begins_with_vowel ? "an " : "a ") + std::string(noun);
+}
+
 std::string message_line(std::string_view message) {
     // Room for the longest path that systems know, beside words of one's own.
     constexpr std::size_t kMaxBytes = 8000;

@@ -83,6 +83,11 @@ public:
         for (const Float2& at : coordinates) add(at);
     }
 
+    void add(const std::shared_ptr<const EnvironmentMapTexels>& map) {
+        const auto& [name, size, texels, mean] = *map;
+        add_all(size, texels, mean);
+    }
+
     void add(const Object& object) {
         const auto& [name, first_triangle, triangle_count] = object;
         add_all(first_triangle, triangle_count);
@@ -115,10 +120,11 @@ public:
 
     void add(const Scene& scene) {
         const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
-                     instances, materials, textures, emitters, lights, emission_textures, camera, film, files,
-                     warnings, radius] = scene;
+                     instances, materials, textures, emitters, lights, emission_textures, environment_maps,
+                     camera, film, files, warnings, radius] = scene;
         add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
-                materials, textures, emitters, lights, emission_textures, camera, film, radius);
+                materials, textures, emitters, lights, emission_textures, environment_maps, camera, film,
+                radius);
     }
 
 private:

@@ -7,7 +7,7 @@ namespace nusselt::scene {
 
 inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
 
-/// Of a light [W/(sr m^2)]. Sums over many samples of far brighter lights would overflow.
+/// Of the emission of a light, in the unit of its quantity. Sums over many samples of far brighter lights would overflow.
 inline constexpr double kMaxRadiance = 1e30;
 
 /// Of Phong lobes. Single precision does not resolve directions in much narrower ones.

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -168,6 +169,7 @@ struct Scene {
     std::vector<Emitter> emitters;
     Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
     std::vector<TexturedEmission> emission_textures; ///< of polygonal lights
+    std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps;
     Camera camera;
     Film film;
 

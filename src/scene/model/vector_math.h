@@ -8,11 +8,6 @@
 
 namespace nusselt::scene {
 
-struct Double3 {
-    double x = 0, y = 0, z = 0;
-    bool operator==(const Double3&) const = default;
-};
-
 inline Double3 to_double(const Float3& v) { return {v.x, v.y, v.z}; }
 inline Float3 to_float(const Double3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -21,6 +16,9 @@ inline Float3 float3_of(const std::array<float, 3>& v) { return {v[0], v[1], v[2
 inline Double3 operator+(const Double3& a, const Double3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Double3 operator-(const Double3& a, const Double3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Double3 operator*(double s, const Double3& v) { return {s * v.x, s * v.y, s * v.z}; }
+inline Double3 per_channel_product(const Double3& a, const Double3& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 inline double dot(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Double3 cross(const Double3& a, const Double3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace nusselt::scene {
 
@@ -26,7 +25,7 @@ bool is_invisible(const EditableLight& light) {
 
 /// The emission of a part of a light.
 struct Emission {
-    Float3 radiance = {1, 1, 1};
+    Float3 value = {1, 1, 1};
     bool two_sided = false;
 };
 
@@ -34,7 +33,7 @@ Emission emission_of(const Lights& parts) {
     for (const LightList& list : parts) {
         if (list.size() == 0) continue;
         const bool* const two_sided = list.two_sided(0);
-        return {list.radiance(0), two_sided != nullptr && *two_sided};
+        return {list.emission(0), two_sided != nullptr && *two_sided};
     }
     return {};
 }
@@ -42,7 +41,7 @@ Emission emission_of(const Lights& parts) {
 void set_emission(const Emission& emission, Lights& parts) {
     for (LightList& list : parts) {
         for (std::size_t i = 0; i < list.size(); ++i) {
-            list.radiance(i) = emission.radiance;
+            list.emission(i) = emission.value;
             if (bool* const two_sided = list.two_sided(i)) *two_sided = emission.two_sided;
         }
     }
@@ -100,7 +99,7 @@ bool is_surface(const EditableLight& light) { return !light.parts.of<SurfaceLigh
 bool is_black(const EditableLight& light) {
     for (const LightList& list : light.parts)
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (!is_black(list.radiance(i))) return false;
+            if (!is_black(list.emission(i))) return false;
     return true;
 }
 
@@ -110,12 +109,19 @@ Double3 centroid(const EditableLight& light) {
     return moment.centroid();
 }
 
-double luminous_power(const EditableLight& light) {
+double luminous_power(const EditableLight& light, double scene_radius) {
     double sum = 0;
     for (const LightList& list : light.parts)
         for (std::size_t i = 0; i < list.size(); ++i)
-            sum += list.emitting_area(i) * luminance(to_double(list.radiance(i)));
-    return std::numbers::pi * sum;
+            sum += luminance(
+                per_channel_product(list.flux_per_emission(i, scene_radius), to_double(list.emission(i))));
+    return sum;
+}
+
+const EmissionQuantity* quantity_of(const Lights& parts) {
+    for (const LightList& list : parts)
+        if (list.size() > 0) return &list.quantity();
+    return nullptr;
 }
 
 void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {

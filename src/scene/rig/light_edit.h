@@ -32,8 +32,10 @@ bool is_surface(const EditableLight& light);
 bool is_black(const EditableLight& light);
 /// The centroid of its parts, weighted by their areas.
 Double3 centroid(const EditableLight& light);
-/// The power that it emits, with channels weighted by their luminance [W].
-double luminous_power(const EditableLight& light);
+/// The power that it emits, with channels weighted by their luminance [W]. \param scene_radius see Scene::radius
+double luminous_power(const EditableLight& light, double scene_radius);
+/// The quantity of its emission; null if it has no parts.
+const EmissionQuantity* quantity_of(const Lights& parts);
 
 /// Takes the lights out of a scene and puts them back when they have been changed.
 class LightEditor {
@@ -41,7 +43,7 @@ public:
     explicit LightEditor(Scene& scene) : scene_(scene), lights_(editable_lights(scene)) {}
 
     std::vector<EditableLight>& lights() { return lights_; }
-    /// Gives a light another shape. It keeps its radiance and its sides; a light without a shape becomes white and
+    /// Gives a light another shape. It keeps its emission and its sides; a light without a shape becomes white and
     /// one-sided. A light whose surface is invisible (alpha 0) stays invisible.
     /// \param material  of its surface if it was no surface before
     void replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material);

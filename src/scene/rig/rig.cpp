@@ -84,9 +84,9 @@ Transform about(const Double3& center, const Transform& transform) {
 }
 
 template <class Change>
-void change_radiance(EditableLight& light, const Change& change) {
+void change_values(EditableLight& light, const Change& change) {
     for (LightList& list : light.parts)
-        for (std::size_t i = 0; i < list.size(); ++i) list.radiance(i) = change(list.radiance(i));
+        for (std::size_t i = 0; i < list.size(); ++i) list.emission(i) = change(list.emission(i));
 }
 
 /// A value in a rig replaces a number and the image beside it.
@@ -114,9 +114,6 @@ const LightList* find_part(const EditableLight& light, const Condition& conditio
     return nullptr;
 }
 
-/// "a tube"
-std::string with_article(const LightList& list) { return "a " + std::string(list.noun()); }
-
 /// The colour of a black body in linear sRGB, with the luminance 1. Below 1900 K it lies outside the gamut.
 Double3 blackbody_colour(double kelvin) {
     const Double3 rgb = srgb_of(blackbody(kelvin), SpectrumUse::illuminant);
@@ -143,7 +140,8 @@ private:
     void change(const RigLight& entry, EditableLight& light, const Double3& offset);
     void rename(const RigLight& entry, EditableLight& light);
     void move(const RigLight& entry, EditableLight& light, const Double3& offset);
-    static void change_emission(const RigLight& entry, EditableLight& light);
+    void replace_shape(const RigLight& entry, EditableLight& light, const Lights& shape);
+    void change_emission(const RigLight& entry, EditableLight& light) const;
 
     Scene& scene_;
     LightEditor editor_;
@@ -247,10 +245,7 @@ std::uint32_t RigApplication::black_material() {
 void RigApplication::change(const RigLight& entry, EditableLight& light, const Double3& offset) {
     const LightChanges& changes = entry.changes;
     rename(entry, light);
-    if (changes.shape) {
-        const bool has_material = is_surface(light) || std::holds_alternative<LightAddition>(entry.lights);
-        editor_.replace_shape(light, *changes.shape, has_material ? light.material : black_material());
-    }
+    if (changes.shape) replace_shape(entry, light, *changes.shape);
     move(entry, light, offset);
     if (!is_valid(light))
         fail(entry.where,
@@ -260,8 +255,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
         const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
         if (const LightList* const list = find_part(light, has_one_side))
             fail(entry.where, "two_sided",
-                 "light " + in_quotes(light.name) + " is " + with_article(*list) +
-                     ", which has only one side");
+                 "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
+                     ", which has no second side");
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) *list.two_sided(i) = *changes.two_sided;
     }
@@ -269,6 +264,17 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     if (!changes.remove) return;
     light.is_removed = true;
     names_.erase(names_.find(light.name));
+}
+
+void RigApplication::replace_shape(const RigLight& entry, EditableLight& light, const Lights& shape) {
+    const EmissionQuantity* const before = quantity_of(light.parts);
+    const EmissionQuantity& quantity = *quantity_of(shape);
+    // The number of one quantity means nothing for another one.
+    if (before != nullptr && *before != quantity && !entry.changes.emission && !entry.changes.power)
+        fail(entry.where, "light " + in_quotes(light.name) + " had " + with_article(before->name) +
+                              "; give the " + std::string(quantity.name) + " or the power of its new shape");
+    const bool has_material = is_surface(light) || std::holds_alternative<LightAddition>(entry.lights);
+    editor_.replace_shape(light, shape, has_material ? light.material : black_material());
 }
 
 void RigApplication::rename(const RigLight& entry, EditableLight& light) {
@@ -291,7 +297,7 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
             find_part(light, [](const LightList& part) { return part.scales_evenly(); });
         if (list != nullptr && (scale.x != scale.y || scale.x != scale.z))
             fail(entry.where, "scale",
-                 "light " + in_quotes(light.name) + " is " + with_article(*list) +
+                 "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
                      "; scale it by a single number");
         transform = about(center, scaling(scale));
     }
@@ -305,29 +311,38 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
     if (!is_identity(transform)) editor_.transform(light, transform);
 }
 
-void RigApplication::change_emission(const RigLight& entry, EditableLight& light) {
+void RigApplication::change_emission(const RigLight& entry, EditableLight& light) const {
     const LightChanges& changes = entry.changes;
-    if (changes.radiance) change_radiance(light, [&](const Float3&) { return *changes.radiance; });
+    if (changes.emission) {
+        const auto& [quantity, value] = *changes.emission;
+        const auto has_another = [&](const LightList& list) { return list.quantity() != quantity; };
+        if (const LightList* const list = find_part(light, has_another))
+            fail(entry.where, std::string(quantity.name),
+                 "light " + in_quotes(light.name) + " is " + with_article(list->noun()) + "; use " +
+                     std::string(list->quantity().name) + " [" + std::string(list->quantity().unit) + "]");
+        change_values(light, [&value = value](const Float3&) { return value; });
+    }
+    const std::string name(quantity_of(light.parts)->name);
     if ((changes.kelvin || changes.power) && is_black(light))
         fail(entry.where, changes.kelvin ? "kelvin" : "power",
-             "light " + in_quotes(light.name) + " is black; use radiance instead");
+             "light " + in_quotes(light.name) + " is black; use " + name + " instead");
     if (changes.kelvin) {
         const Double3 colour = blackbody_colour(*changes.kelvin);
-        change_radiance(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
+        change_values(light, [&](const Float3& c) { return to_float(luminance(to_double(c)) * colour); });
     }
     if (changes.scale_radiance)
-        change_radiance(light, [&](const Float3& c) { return scaled(*changes.scale_radiance, c); });
+        change_values(light, [&](const Float3& c) { return scaled(*changes.scale_radiance, c); });
     if (changes.power) {
-        const double factor = *changes.power / luminous_power(light);
-        change_radiance(light, [&](const Float3& c) { return scaled(factor, c); });
+        const double factor = *changes.power / luminous_power(light, scene_.radius);
+        change_values(light, [&](const Float3& c) { return scaled(factor, c); });
     }
     const auto check = [&](const Float3& c) {
         if (!(std::max({c.x, c.y, c.z}) <= kMaxRadiance))
-            fail(entry.where,
-                 "light " + in_quotes(light.name) + " would have a radiance above " + to_text(kMaxRadiance));
+            fail(entry.where, "light " + in_quotes(light.name) + " would have " + with_article(name) +
+                                  " above " + to_text(kMaxRadiance));
         return c;
     };
-    change_radiance(light, check);
+    change_values(light, check);
 }
 
 } // namespace

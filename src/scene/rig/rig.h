@@ -27,6 +27,12 @@ struct Rotation {
     double degrees = 0;
 };
 
+/// An emission of lights of the kinds that have this quantity.
+struct GivenEmission {
+    EmissionQuantity quantity;
+    Float3 value;
+};
+
 /// Changes of a light, in the order of their application.
 struct LightChanges {
     std::optional<std::string> name;
@@ -35,10 +41,10 @@ struct LightChanges {
     std::optional<Rotation> rotation; ///< about the centroid
     std::optional<Float3> center;     ///< where the centroid goes
     std::optional<Double3> move;      ///< [m]
-    std::optional<Float3> radiance;   ///< [W/(sr m^2)]
-    std::optional<double> kelvin;     ///< colour of this temperature; the luminance stays
-    std::optional<double> power;      ///< of the whole light [W], with channels weighted by their luminance
-    std::optional<double> scale_radiance;
+    std::optional<GivenEmission> emission;
+    std::optional<double> kelvin; ///< colour of this temperature; the luminance stays
+    std::optional<double> power;  ///< of the whole light [W], with channels weighted by their luminance
+    std::optional<double> scale_radiance; ///< or another emission
     std::optional<bool> two_sided;
     std::optional<bool> enabled;
     bool remove = false;

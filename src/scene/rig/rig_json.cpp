@@ -1,7 +1,9 @@
 #include "scene/rig/rig_json.h"
 
 #include "scene/input/json_node.h"
+#include "scene/input/message.h"
 #include "scene/model/polygon.h"
+#include "scene/rig/light_edit.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +23,6 @@ constexpr std::array kLightSynonyms = std::to_array<FieldSynonym>({
     {"color", "radiance"},
     {"colour", "radiance"},
     {"emission", "radiance"},
-    {"intensity", "radiance"},
     {"L", "radiance"},
     {"brightness", "scale_radiance"},
     {"temperature", "kelvin"},
@@ -39,7 +40,7 @@ constexpr std::array kMaterialSynonyms = std::to_array<FieldSynonym>({
 });
 
 Float3 read_point(const JsonNode& node) { return float3_of(node.triple(-kMaxCoordinate, kMaxCoordinate)); }
-Float3 read_radiance(const JsonNode& node) { return float3_of(node.triple_or_number(0, kMaxRadiance)); }
+Float3 read_emission(const JsonNode& node) { return float3_of(node.triple_or_number(0, kMaxRadiance)); }
 float read_length(const JsonNode& node) { return static_cast<float>(node.positive_number(kMaxCoordinate)); }
 
 /// A vector of length 1.
@@ -127,6 +128,39 @@ Lights read_strip(const JsonNode& node) {
     return only(strip);
 }
 
+/// Narrower spots have no effect on single pixels; the numbers of their falloff would be denormal.
+constexpr double kMinConeAngle = 1e-6;
+
+Lights read_point_light(const JsonNode& node) {
+    PointLight light;
+    light.position = read_point(node);
+    return only(light);
+}
+
+Lights read_spot(const JsonNode& node) {
+    node.check_fields({"position", "direction", "degrees", "full_degrees", "falloff"});
+    PointLight light;
+    light.distribution = PointDistribution::smooth_cone;
+    light.position = read_point(node.at("position"));
+    light.z_axis = to_float(read_direction(node.at("direction")));
+    light.cone_angle = static_cast<float>(node.at("degrees").number(kMinConeAngle, 180));
+    const auto full = node.find("full_degrees");
+    light.full_angle = full ? static_cast<float>(full->number(0, static_cast<double>(light.cone_angle)))
+                            : std::max(light.cone_angle - 5, 0.0f);
+    if (const auto falloff = node.find("falloff")) {
+        const std::string kind = falloff->text();
+        if (kind != "smooth" && kind != "quartic") falloff->fail_type("\"smooth\" or \"quartic\"");
+        if (kind == "quartic") light.distribution = PointDistribution::quartic_cone;
+    }
+    return only(light);
+}
+
+Lights read_distant_light(const JsonNode& node) {
+    DistantLight light;
+    light.direction = to_float(read_direction(node));
+    return only(light);
+}
+
 Rotation read_rotation(const JsonNode& node) {
     node.check_fields({"axis", "degrees"});
     return {read_direction(node.at("axis")), node.at("degrees").number(-kMaxDegrees, kMaxDegrees)};
@@ -183,7 +217,9 @@ struct ShapeField {
 };
 
 constexpr ShapeField kShapeFields[] = {
-    {"polygon", read_polygon}, {"panel", read_panel}, {"tube", read_tube}, {"strip", read_strip}};
+    {"polygon", read_polygon},      {"panel", read_panel},       {"tube", read_tube},
+    {"strip", read_strip},          {"point", read_point_light}, {"spot", read_spot},
+    {"distant", read_distant_light}};
 
 std::vector<std::string_view> shape_field_names() {
     std::vector<std::string_view> names;
@@ -191,12 +227,11 @@ std::vector<std::string_view> shape_field_names() {
     return names;
 }
 
-/// "a polygon, a panel or a tube"
+/// The fields with shapes, in quotes.
 std::string any_shape() {
-    const std::vector<std::string_view> names = shape_field_names();
     std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "a " : i + 1 < names.size() ? ", a " : " or a ") + std::string(names[i]);
+    for (const std::string_view name : shape_field_names())
+        text += (text.empty() ? "\"" : ", \"") + std::string(name) + '"';
     return text;
 }
 
@@ -207,6 +242,12 @@ std::optional<Lights> read_shape(const JsonNode& entry) {
     return std::nullopt;
 }
 
+std::vector<std::string_view> emission_field_names() {
+    std::vector<std::string_view> names;
+    for (const EmissionQuantity& quantity : kEmissionQuantities) names.push_back(quantity.name);
+    return names;
+}
+
 LightChanges read_changes(const JsonNode& entry) {
     LightChanges changes;
     if (const auto node = entry.find("name")) changes.name = node->text();
@@ -215,8 +256,12 @@ LightChanges read_changes(const JsonNode& entry) {
     if (const auto node = entry.find("rotate")) changes.rotation = read_rotation(*node);
     if (const auto node = entry.find("center")) changes.center = read_point(*node);
     if (const auto node = entry.find("move")) changes.move = to_double(read_point(*node));
-    find_one(entry, {"radiance", "scale_radiance", "power"});
-    if (const auto node = entry.find("radiance")) changes.radiance = read_radiance(*node);
+    std::vector<std::string_view> brightness = emission_field_names();
+    brightness.insert(brightness.end(), {"scale_radiance", "power"});
+    find_one(entry, brightness);
+    for (const EmissionQuantity& quantity : kEmissionQuantities)
+        if (const auto node = entry.find(quantity.name))
+            changes.emission = GivenEmission{quantity, read_emission(*node)};
     if (const auto node = entry.find("kelvin")) changes.kelvin = node->number(1000, 40000);
     if (const auto node = entry.find("power")) changes.power = node->number(0, kMaxRadiance);
     if (const auto node = entry.find("scale_radiance"))
@@ -230,8 +275,9 @@ LightChanges read_changes(const JsonNode& entry) {
 LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) {
     LightAddition addition;
     addition.name = entry.at("add").text();
-    if (!changes.shape) entry.fail("must have a shape; add " + any_shape());
-    if (!changes.radiance && !changes.power) entry.fail("must have a radiance or a power");
+    if (!changes.shape) entry.fail("must have a shape; add one of " + any_shape());
+    if (!changes.emission && !changes.power)
+        entry.fail("must have " + with_article(quantity_of(*changes.shape)->name) + " or a power");
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
     if (const auto material = entry.find("material")) {
@@ -249,8 +295,10 @@ RigLight read_light(const JsonNode& entry) {
     std::vector<std::string_view> fields = {"light", "add", "comment", "name"};
     const std::vector<std::string_view> shapes = shape_field_names();
     fields.insert(fields.end(), shapes.begin(), shapes.end());
-    fields.insert(fields.end(), {"material", "scale", "rotate", "center", "move", "copies", "radiance",
-                                 "kelvin", "power", "enabled", "two_sided", "remove", "scale_radiance"});
+    const std::vector<std::string_view> emission = emission_field_names();
+    fields.insert(fields.end(), emission.begin(), emission.end());
+    fields.insert(fields.end(), {"material", "scale", "rotate", "center", "move", "copies", "kelvin", "power",
+                                 "enabled", "two_sided", "remove", "scale_radiance"});
     entry.check_fields(fields, kLightSynonyms);
     if (!find_one(entry, {"light", "add"}))
         entry.fail(

@@ -67,9 +67,9 @@ std::string light_text(std::size_t index, const EditableLight& light) {
     const std::string shape = shape_field(light);
     fields.add(shape);
     if (shape.empty()) fields.add("center", triple_text(to_float(centroid(light))));
-    fields.add("radiance", common_text(light, [](const LightList& list, std::size_t i) {
-                   return triple_text(list.radiance(i));
-               }));
+    fields.add(common_text(light, [](const LightList& list, std::size_t i) {
+        return "\"" + std::string(list.quantity().name) + "\": " + triple_text(list.emission(i));
+    }));
     fields.add("two_sided", common_text(light, [](const LightList& list, std::size_t i) {
                    return list.two_sided(i) == nullptr ? std::string() : boolean_text(*list.two_sided(i));
                }));

@@ -2,6 +2,7 @@
 
 #include "files.h"
 #include "scene/import/importers.h"
+#include "scene/model/vector_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,8 +125,33 @@ std::string_view violation_of_lights(const Scene& scene) {
         if (!(light.radius >= 0 && light.radius <= kLargestCoordinate)) return "a tube has no valid radius";
         if (!is_radiance(light.radiance)) return "a radiance is negative or not finite";
     }
-    const std::string_view problem = violation_of_emitters(scene, scene.lights.of<scene::PolygonLight>());
-    return problem.empty() ? violation_of_emitters(scene, scene.lights.of<scene::LineLight>()) : problem;
+    for (const std::string_view problem : {violation_of_emitters(scene, scene.lights.of<PolygonLight>()),
+                                           violation_of_emitters(scene, scene.lights.of<LineLight>()),
+                                           violation_of_emitters(scene, scene.lights.of<PointLight>()),
+                                           violation_of_emitters(scene, scene.lights.of<DistantLight>())})
+        if (!problem.empty()) return problem;
+    return {};
+}
+
+std::string_view violation_of_light_sources(const Scene& scene) {
+    const auto is_unit = [](const Float3& v) { return std::fabs(length(to_double(v)) - 1) < 1e-5; };
+    for (const PointLight& light : scene.lights.of<PointLight>()) {
+        if (!is_position(light.position)) return "a point light is not finite or too far away";
+        if (!is_radiance(light.intensity)) return "an intensity is negative or not finite";
+        if (!is_unit(light.x_axis) || !is_unit(light.y_axis) || !is_unit(light.z_axis))
+            return "an axis of a point light has no unit length";
+        if (!(light.cone_angle > 0 && light.cone_angle <= 180 && light.full_angle >= 0 &&
+              light.full_angle <= light.cone_angle))
+            return "the angles of a spot are out of range";
+        if (light.texture != -1 && !is_index(light.texture, scene.textures.size()))
+            return "a point light has no such texture";
+        if (!(light.half_extent.x > 0 && light.half_extent.y > 0)) return "a projected image has no size";
+    }
+    for (const DistantLight& light : scene.lights.of<DistantLight>()) {
+        if (!is_unit(light.direction)) return "a direction has no unit length";
+        if (!is_radiance(light.irradiance)) return "an irradiance is negative or not finite";
+    }
+    return {};
 }
 
 std::string_view violation_of_view(const Scene& scene) {
@@ -152,7 +178,7 @@ std::string_view violation_of_view(const Scene& scene) {
 
 std::string_view violation(const Scene& scene) {
     for (const auto check : {violation_of_surfaces, violation_of_objects, violation_of_materials,
-                             violation_of_lights, violation_of_view})
+                             violation_of_lights, violation_of_light_sources, violation_of_view})
         if (const std::string_view problem = check(scene); !problem.empty()) return problem;
     if (!(scene.radius >= 0 && std::isfinite(scene.radius))) return "the radius of the scene is not finite";
     for (const std::string& warning : scene.warnings)

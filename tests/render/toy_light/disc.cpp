@@ -17,6 +17,8 @@ namespace {
 using Kind = LightKind<DiscLight>;
 
 /// The corner of a polygon around the disc.
+double area_of(const DiscLight& light) { return std::numbers::pi * light.radius * light.radius; }
+
 Double3 corner(const DiscLight& light, int i, int count) {
     const Double3 normal = to_double(light.normal);
     const Double3 other = std::fabs(normal.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0};
@@ -39,10 +41,12 @@ void Kind::hash(const DiscLight& light, ContentHash& hash) {
     hash.add(emitter, center, normal, radius, radiance);
 }
 
-double Kind::emitting_area(const DiscLight& light) { return std::numbers::pi * light.radius * light.radius; }
+Double3 Kind::flux_per_emission(const DiscLight& light, double /*scene_radius*/) {
+    return lambertian_flux(area_of(light));
+}
 
 void Kind::add_moment(const DiscLight& light, Moment& moment) {
-    moment.add(emitting_area(light), to_double(light.center));
+    moment.add(area_of(light), to_double(light.center));
 }
 
 bool Kind::is_valid(const DiscLight& light) { return is_valid_coordinate(light.center) && light.radius > 0; }
@@ -75,9 +79,10 @@ double Kind::hit(const DiscLight& light, const SightRay& ray) {
     return t > 0 && is_inside ? t : std::numeric_limits<double>::infinity();
 }
 
-std::string Kind::describe(std::span<const DiscLight> lights) {
+std::string Kind::describe(std::span<const DiscLight> lights, double /*scene_radius*/) {
     const DiscLight& light = lights.front();
-    return "radius " + report_text(light.radius) + " m, " + power_text(emitting_area(light), light.radiance);
+    return "radius " + report_text(light.radius) + " m, " +
+           power_text(lambertian_flux(area_of(light)), light.radiance);
 }
 
 std::string Kind::rig_field(const DiscLight& /*light*/) { return ""; }

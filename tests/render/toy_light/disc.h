@@ -23,9 +23,11 @@ struct LightKind<DiscLight> {
     static constexpr std::string_view kPlural = "discs";
     static constexpr bool kScalesEvenly = true;
     static constexpr bool kHasBrdfSamples = false;
+    static constexpr EmissionQuantity kQuantity = kRadiance;
+    static constexpr auto kEmission = &DiscLight::radiance;
     static void add_to(const DiscLight& light, Bounds& bounds);
     static void hash(const DiscLight& light, ContentHash& hash);
-    static double emitting_area(const DiscLight& light);
+    static Double3 flux_per_emission(const DiscLight& light, double scene_radius);
     static void add_moment(const DiscLight& light, Moment& moment);
     static bool is_valid(const DiscLight& light);
     static void transform(DiscLight& light, const Transform& transform);
@@ -33,7 +35,7 @@ struct LightKind<DiscLight> {
     static const bool* two_sided(const DiscLight& light);
     static void add_mesh(const DiscLight& light, LightMesh& mesh);
     static double hit(const DiscLight& light, const SightRay& ray);
-    static std::string describe(std::span<const DiscLight> lights);
+    static std::string describe(std::span<const DiscLight> lights, double scene_radius);
     static std::string rig_field(const DiscLight& light);
 };
 

@@ -16,7 +16,7 @@ namespace nusselt::scene {
 enum class Fault {
     bounds,
     hash,
-    area,
+    flux,
     moment,
     validity,
     transform,
@@ -47,8 +47,10 @@ struct LightKind<FaultyDisc<fault>> : LightKind<DiscLight> {
         else
             Right::hash(light, hash);
     }
-    static double emitting_area(const DiscLight& light) {
-        return fault == Fault::area ? light.radius : Right::emitting_area(light);
+    static Double3 flux_per_emission(const DiscLight& light, double scene_radius) {
+        const double wrong = light.radius;
+        return fault == Fault::flux ? Double3{wrong, wrong, wrong}
+                                    : Right::flux_per_emission(light, scene_radius);
     }
     static void add_moment(const DiscLight& light, Moment& moment) {
         if constexpr (fault == Fault::moment)
@@ -76,9 +78,9 @@ struct LightKind<FaultyDisc<fault>> : LightKind<DiscLight> {
     static double hit(const DiscLight& light, const SightRay& ray) {
         return fault == Fault::hit ? std::numeric_limits<double>::infinity() : Right::hit(light, ray);
     }
-    static std::string describe(std::span<const FaultyDisc<fault>> lights) {
+    static std::string describe(std::span<const FaultyDisc<fault>> lights, double scene_radius) {
         const DiscLight& first = lights.front();
-        return fault == Fault::description ? "" : Right::describe(std::span(&first, 1));
+        return fault == Fault::description ? "" : Right::describe(std::span(&first, 1), scene_radius);
     }
     static std::string rig_field(const DiscLight& light) {
         return fault == Fault::rig_field ? "disc" : Right::rig_field(light);

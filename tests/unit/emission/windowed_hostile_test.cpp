@@ -82,6 +82,34 @@ TEST(WindowedPolygon, SmallWindowsKeepTheirDigits) {
     }
 }
 
+/// A light that looks at the point is a portal that looks away from it, also next to their plane.
+TEST(WindowedPolygon, LightsAndPortalsAreAlikeNextToTheirPlane) {
+    const StoredTable<float> stored([](const auto&) { return grey<float>(1); },
+                                    nusselt::RectifiedDomain<float>::hemisphere(), 64, 64, 1);
+    const Frame<float> back{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
+    const auto surface = Frame<float>::from_normal({0, 0.8f, 0.6f});
+    for (const float height : {1.0f, 1e-2f, 1e-4f}) {
+        const auto vertices = rectangle_at<float>(height, 1.3f, 2.7f, -0.4f, 0.9f);
+        const auto portal = portal_of(vertices, stored.table);
+        const auto light = nusselt::make_profiled_light(back, vertices.data(), 4, stored.table);
+        const WindowedPolygon<float, 8> a(to_shading_space(portal.plane, {0, 0, 0}, surface), portal);
+        const WindowedPolygon<float, 8> b(to_shading_space(light.plane, {0, 0, 0}, surface), light);
+        const float expected = projected_solid_angle(
+            to_shading_space(nusselt::make_polygon<4>(vertices.data(), 4), {0, 0, 0}, surface));
+        EXPECT_GT(expected, 0);
+        // Angles of cells are as large as their rounding errors at least, which matters here in the last case.
+        const double tolerance = height < 1e-3f ? 2e-2 : 1e-3;
+        EXPECT_NEAR(a.measure() / expected, 1, tolerance) << height;
+        EXPECT_NEAR(b.measure() / expected, 1, tolerance) << height;
+        const nusselt::Vec3<float> inside =
+            surface.to_local(normalize(nusselt::Vec3<float>{1.9f, 0.3f, height}));
+        EXPECT_NEAR(a.pdf(inside) / b.pdf(inside), 1, 1e-2) << height;
+        EXPECT_EQ(WindowedPolygon<float>(to_shading_space(light.plane, {0, 0, 2 * height}, surface), light)
+                      .measure(),
+                  0);
+    }
+}
+
 /// A texel of 1e30 takes all samples of windows with it, and none of the others.
 TEST(WindowedPolygon, OneHugeTexelDoesNoHarm) {
     const TexelMap map(64, [](const Vector& w) {

@@ -4,6 +4,7 @@
 #include "scene/import/pbrt/directives/camera_directive.h"
 #include "scene/import/pbrt/directives/emission_directive.h"
 #include "scene/import/pbrt/directives/film_directive.h"
+#include "scene/import/pbrt/directives/light_source_directive.h"
 #include "scene/import/pbrt/directives/option_directive.h"
 #include "scene/import/pbrt/directives/sampler_directive.h"
 #include "scene/import/pbrt/graphics_state.h"
@@ -208,7 +209,7 @@ SceneDescription Parser::run() {
                          "none of the directives of pbrt's format is in this file; is it a scene?");
     state_.warn_if_open(scene_.warnings);
     left_out_shapes_.warn("unsupported shapes are skipped, starting here", scene_.warnings);
-    ignored_lights_.warn("light sources other than area lights are skipped, starting here", scene_.warnings);
+    ignored_lights_.warn("unsupported light sources are skipped, starting here", scene_.warnings);
     const Location begin{&scene_.sources.front(), 1};
     if (!camera_)
         scene_.warnings.add(begin, "Camera is missing; the default camera looks from the origin along +z");
@@ -451,9 +452,18 @@ void Parser::color_space() {
 }
 
 void Parser::light_source() {
-    const std::string type = reader_.read_type();
-    read_parameters();
-    ignored_lights_.add(type, location_);
+    LightSourceDirective light;
+    light.type = reader_.read_type();
+    light.parameters = read_parameters(AttributeTarget::light);
+    if (!is_supported_light_source(light.type)) {
+        ignored_lights_.add(light.type, location_);
+        return;
+    }
+    light.world_from_light = state_.current().ctm;
+    light.version = version_;
+    light.image_path = resolve(light.parameters.string(image_parameter(version_), ""));
+    if (auto source = read_light_source(light, textures_.planner(), scene_.warnings))
+        scene_.light_sources.push_back(std::move(*source));
 }
 
 void Parser::area_light_source() {

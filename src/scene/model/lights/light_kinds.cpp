@@ -15,6 +15,8 @@ Lights lists_of() {
 
 } // namespace
 
-Lights no_lights_of_each_kind() { return lists_of<SurfaceLight, LineLight>(); }
+Lights no_lights_of_each_kind() {
+    return lists_of<SurfaceLight, LineLight, PointLight, DistantLight, EnvironmentLight>();
+}
 
 } // namespace nusselt::scene

@@ -4,7 +4,6 @@
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
-#include <numbers>
 #include <ostream>
 
 namespace nusselt::scene {
@@ -12,18 +11,20 @@ namespace nusselt::scene {
 namespace {
 
 /// The power in the strongest channel [W].
-double power(const LightList& list, std::size_t i) {
-    const Double3 radiance = to_double(list.radiance(i));
-    return std::numbers::pi * list.emitting_area(i) * std::max({radiance.x, radiance.y, radiance.z});
+double power(const LightList& list, std::size_t i, double scene_radius) {
+    const Double3 flux =
+        per_channel_product(list.flux_per_emission(i, scene_radius), to_double(list.emission(i)));
+    return std::max({flux.x, flux.y, flux.z});
 }
 
 /// Reports lights that cost as much time as others but contribute next to nothing.
-void write_weak_lights(const LightList& list, std::ostream& stream) {
+void write_weak_lights(const LightList& list, double scene_radius, std::ostream& stream) {
     constexpr double kWeak = 1e-6;
     double total = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) total += power(list, i);
+    for (std::size_t i = 0; i < list.size(); ++i) total += power(list, i, scene_radius);
     std::size_t weak = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) weak += power(list, i) < kWeak * total ? 1 : 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        weak += power(list, i, scene_radius) < kWeak * total ? 1 : 0;
     if (weak == 0) return;
     stream << "  " << weak << " of the " << list.plural() << (weak == 1 ? " has" : " have") << " less than "
            << report_text(kWeak) << " of the power of all\n";
@@ -34,17 +35,18 @@ void write_weak_lights(const LightList& list, std::ostream& stream) {
 void write_light_report(const Scene& scene, std::ostream& stream) {
     const char* separator = "";
     for (const LightList& list : scene.lights) {
+        if (list.size() == 0) continue;
         stream << separator << list.size() << " " << list.name() << (list.size() == 1 ? " light" : " lights");
         separator = ", ";
     }
-    stream << "\n";
+    stream << (scene.lights.empty() ? "no lights\n" : "\n");
     for (const LightList& list : scene.lights) {
         for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
             while (end < list.size() && list.emitter(end) == list.emitter(begin)) ++end;
-            stream << "  " << scene.emitters[list.emitter(begin)].name << ": " << list.describe(begin, end)
-                   << "\n";
+            stream << "  " << scene.emitters[list.emitter(begin)].name << ": "
+                   << list.describe(begin, end, scene.radius) << "\n";
         }
-        write_weak_lights(list, stream);
+        write_weak_lights(list, scene.radius, stream);
     }
 }
 

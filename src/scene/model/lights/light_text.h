@@ -1,9 +1,10 @@
 #pragma once
-/// Text of numbers in reports on lights.
+/// Text of numbers in reports on lights, and the power that they state.
 
 #include "scene/model/vector_math.h"
 
 #include <cstdio>
+#include <numbers>
 #include <string>
 
 namespace nusselt::scene {
@@ -19,10 +20,15 @@ inline std::string report_text(const Float3& v) {
     return report_text(v.x) + " " + report_text(v.y) + " " + report_text(v.z);
 }
 
-/// The power of lights whose emitting sides have this total area [m^2].
-inline std::string power_text(double emitting_area, const Float3& radiance) {
-    constexpr double kPi = 3.14159265358979323846;
-    return "power " + report_text(to_float(emitting_area * kPi * to_double(radiance))) + " W";
+/// The flux per radiance of surfaces that are equally bright from all sides. \param area that emits [m^2]
+inline Double3 lambertian_flux(double area) {
+    const double flux = area * std::numbers::pi;
+    return {flux, flux, flux};
+}
+
+/// \param flux per emission
+inline std::string power_text(const Double3& flux, const Float3& emission) {
+    return "power " + report_text(to_float(per_channel_product(flux, to_double(emission)))) + " W";
 }
 
 } // namespace nusselt::scene

@@ -31,6 +31,7 @@ public:
     std::string_view plural() const override { return Kind::kPlural; }
     bool scales_evenly() const override { return Kind::kScalesEvenly; }
     bool has_brdf_samples() const override { return Kind::kHasBrdfSamples; }
+    const EmissionQuantity& quantity() const override { return Kind::kQuantity; }
     std::size_t size() const override { return lights.size(); }
     std::size_t bytes() const override { return lights.size() * sizeof(Light); }
     void add_to(Bounds& bounds) const override {
@@ -46,10 +47,12 @@ public:
         for (Light& light : lights) Kind::transform(light, transform);
     }
 
-    using LightList::emitter, LightList::radiance, LightList::two_sided;
+    using LightList::emitter, LightList::emission, LightList::two_sided;
     const std::uint32_t& emitter(std::size_t i) const override { return lights[i].emitter; }
-    const Float3& radiance(std::size_t i) const override { return lights[i].radiance; }
-    double emitting_area(std::size_t i) const override { return Kind::emitting_area(lights[i]); }
+    const Float3& emission(std::size_t i) const override { return lights[i].*Kind::kEmission; }
+    Double3 flux_per_emission(std::size_t i, double scene_radius) const override {
+        return Kind::flux_per_emission(lights[i], scene_radius);
+    }
     bool is_valid(std::size_t i) const override { return Kind::is_valid(lights[i]); }
     bool same_shape(std::size_t i, const LightList& others, std::size_t k) const override {
         const auto* const same_kind = dynamic_cast<const LightsOf*>(&others);
@@ -58,8 +61,8 @@ public:
     const bool* two_sided(std::size_t i) const override { return Kind::two_sided(lights[i]); }
     void add_mesh(std::size_t i, LightMesh& mesh) const override { Kind::add_mesh(lights[i], mesh); }
     double hit(std::size_t i, const SightRay& ray) const override { return Kind::hit(lights[i], ray); }
-    std::string describe(std::size_t begin, std::size_t end) const override {
-        return Kind::describe(std::span(lights).subspan(begin, end - begin));
+    std::string describe(std::size_t begin, std::size_t end, double scene_radius) const override {
+        return Kind::describe(std::span(lights).subspan(begin, end - begin), scene_radius);
     }
     std::string rig_field(std::size_t i) const override { return Kind::rig_field(lights[i]); }
     void copy_to(LightList& others, std::size_t i) const override {

@@ -72,7 +72,9 @@ void Kind::hash(const LineLight& light, ContentHash& hash) {
     hash.add(emitter, start, end, radius, radiance, model, normal);
 }
 
-double Kind::emitting_area(const LineLight& light) { return area(light); }
+Double3 Kind::flux_per_emission(const LineLight& light, double /*scene_radius*/) {
+    return lambertian_flux(area(light));
+}
 
 void Kind::add_moment(const LineLight& light, Moment& moment) {
     moment.add(lateral_area(light), 0.5 * (to_double(light.start) + to_double(light.end)));
@@ -166,7 +168,7 @@ std::string model_fields(TubeModel model) {
 
 } // namespace
 
-std::string Kind::describe(std::span<const LineLight> lights) {
+std::string Kind::describe(std::span<const LineLight> lights, double /*scene_radius*/) {
     double sum = 0;
     double extent = 0;
     for (const LineLight& light : lights) {
@@ -176,7 +178,7 @@ std::string Kind::describe(std::span<const LineLight> lights) {
     const LineLight& first = lights.front();
     return (lights.size() > 1 ? std::to_string(lights.size()) + " lines, " : "") + "length " +
            report_text(extent) + " m, " + width_text(first) + " m, radiance " + report_text(first.radiance) +
-           " W/(sr m^2), " + power_text(sum, first.radiance);
+           " W/(sr m^2), " + power_text(lambertian_flux(sum), first.radiance);
 }
 
 std::string Kind::rig_field(const LineLight& light) {

@@ -41,9 +41,11 @@ struct LightKind<LineLight> {
     static constexpr std::string_view kPlural = "tubes and lines";
     static constexpr bool kScalesEvenly = true;
     static constexpr bool kHasBrdfSamples = false;
+    static constexpr EmissionQuantity kQuantity = kRadiance;
+    static constexpr auto kEmission = &LineLight::radiance;
     static void add_to(const LineLight& light, Bounds& bounds);
     static void hash(const LineLight& light, ContentHash& hash);
-    static double emitting_area(const LineLight& light);
+    static Double3 flux_per_emission(const LineLight& light, double scene_radius);
     static void add_moment(const LineLight& light, Moment& moment);
     static bool is_valid(const LineLight& light);
     static void transform(LineLight& light, const Transform& transform);
@@ -51,7 +53,7 @@ struct LightKind<LineLight> {
     static const bool* two_sided(const LineLight& light);
     static void add_mesh(const LineLight& light, LightMesh& mesh);
     static double hit(const LineLight& light, const SightRay& ray);
-    static std::string describe(std::span<const LineLight> lights);
+    static std::string describe(std::span<const LineLight> lights, double scene_radius);
     static std::string rig_field(const LineLight& light);
 };
 

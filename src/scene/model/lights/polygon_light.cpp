@@ -60,7 +60,9 @@ void Kind::hash(const PolygonLight& light, ContentHash& hash) {
     hash.add(radiance, two_sided);
 }
 
-double Kind::emitting_area(const PolygonLight& light) { return (light.two_sided ? 2 : 1) * area(light); }
+Double3 Kind::flux_per_emission(const PolygonLight& light, double /*scene_radius*/) {
+    return lambertian_flux((light.two_sided ? 2 : 1) * area(light));
+}
 
 void Kind::add_moment(const PolygonLight& light, Moment& moment) {
     const std::vector<Double3> p = corners(light);
@@ -108,7 +110,7 @@ double Kind::hit(const PolygonLight& light, const SightRay& ray) {
     return t;
 }
 
-std::string Kind::describe(std::span<const PolygonLight> lights) {
+std::string Kind::describe(std::span<const PolygonLight> lights, double /*scene_radius*/) {
     double sum = 0;
     std::size_t vertices = 0;
     for (const PolygonLight& light : lights) {
@@ -120,7 +122,8 @@ std::string Kind::describe(std::span<const PolygonLight> lights) {
     return (lights.size() > 1 ? std::to_string(lights.size()) + " polygons, " : "") +
            std::to_string(vertices) + " vertices, " + report_text(sum) + " m^2, " +
            (first.texture >= 0 ? "textured, mean radiance " : "radiance ") + report_text(first.radiance) +
-           " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") + power_text(sides * sum, first.radiance);
+           " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
+           power_text(lambertian_flux(sides * sum), first.radiance);
 }
 
 std::string Kind::rig_field(const PolygonLight& light) {

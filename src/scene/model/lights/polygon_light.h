@@ -72,9 +72,11 @@ struct LightKind<PolygonLight> {
     static constexpr std::string_view kPlural = "polygons";
     static constexpr bool kScalesEvenly = false;
     static constexpr bool kHasBrdfSamples = true;
+    static constexpr EmissionQuantity kQuantity = kRadiance;
+    static constexpr auto kEmission = &PolygonLight::radiance;
     static void add_to(const PolygonLight& light, Bounds& bounds);
     static void hash(const PolygonLight& light, ContentHash& hash);
-    static double emitting_area(const PolygonLight& light);
+    static Double3 flux_per_emission(const PolygonLight& light, double scene_radius);
     static void add_moment(const PolygonLight& light, Moment& moment);
     static bool is_valid(const PolygonLight& light);
     static void transform(PolygonLight& light, const Transform& transform);
@@ -82,7 +84,7 @@ struct LightKind<PolygonLight> {
     static const bool* two_sided(const PolygonLight& light);
     static void add_mesh(const PolygonLight& light, LightMesh& mesh);
     static double hit(const PolygonLight& light, const SightRay& ray);
-    static std::string describe(std::span<const PolygonLight> lights);
+    static std::string describe(std::span<const PolygonLight> lights, double scene_radius);
     static std::string rig_field(const PolygonLight& light);
 };
 

@@ -1,0 +1,203 @@
+// Environments: light from infinity in all directions.
+
+#include "render_cpu/kernel/lights/cell_samples.h"
+#include "render_cpu/lights/environment_records.h"
+
+#include <nusselt/emission/environment_sampling.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+using Map = EnvironmentMap<float, render_cpu::kEnvironmentCells>;
+using DiffuseCells = EnvironmentCosine<float, render_cpu::kEnvironmentCells>;
+using SpecularCells = EnvironmentLtc<float, render_cpu::kEnvironmentCells>;
+
+const render_cpu::EnvironmentRecord& environment_record(const render_cpu::LightSet& lights,
+                                                        std::int32_t index) noexcept {
+    return static_cast<const render_cpu::EnvironmentRecord*>(lights.records)[index];
+}
+
+const Map& map_of(const render_cpu::EnvironmentRecord& record) noexcept {
+    return *static_cast<const Map*>(record.map);
+}
+
+/// A direction of world space in the space of the map.
+template <class T>
+Vec3<T> to_map(const render_cpu::EnvironmentRecord& record, const Vec3<T>& direction) noexcept {
+    const auto along = [&](const scene::Float3& axis) { return dot(broadcast<T>(to_vec(axis)), direction); };
+    return {along(record.x_axis), along(record.y_axis), along(record.z_axis)};
+}
+
+/// All directions. Shadow rays end beyond the scene, from any of its points.
+struct Sky {
+    float distance;
+
+    Vector point(const Vector& wi) const noexcept { return Real(distance) * wi; }
+};
+
+/// Sampling of the hemisphere by the cosine.
+struct CosineOfSky {
+    Sky sky;
+
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vector wi = sample_cosine(u);
+        return {wi, pdf(wi), sky.point(wi)};
+    }
+    Real pdf(const Vector& wi) const noexcept { return Real(1 / kPi<float>) * max(wi.z, Real(0)); }
+    Real measure() const noexcept { return Real(kPi<float>); }
+
+    static Vector sample_cosine(const Vec2<Real>& u) noexcept {
+        const Real radius = sqrt(u.x);
+        const SinCos<Real> angle = sincos_full_turn(u.y);
+        return {radius * angle.cos, radius * angle.sin, sqrt(max(Real(1) - u.x, Real(0)))};
+    }
+    static SinCos<Real> sincos_full_turn(const Real& turns) noexcept {
+        const auto second = turns >= Real(0.5f);
+        const SinCos<Real> half =
+            sincos_half_turn(Real(2 * kPi<float>) * (turns - select(second, Real(0.5f), Real(0))));
+        return {select(second, -half.sin, half.sin), select(second, -half.cos, half.cos)};
+    }
+};
+
+/// Sampling of a lobe, also below the horizon.
+struct LobeOfSky {
+    Sky sky;
+    Ltc<Real> lobe;
+
+    LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Vector wi = normalize(lobe.from_cosine(CosineOfSky::sample_cosine(u)));
+        return {wi, pdf(wi), sky.point(wi)};
+    }
+    Real pdf(const Vector& wi) const noexcept { return lobe.density(wi); }
+    Real measure() const noexcept { return Real(1); }
+};
+
+/// The techniques for the same radiance everywhere.
+struct SkyPair : CosineMeasures {
+    template <class AnySurface>
+    static CosineOfSky diffuse(const Sky& sky, const AnySurface& /*surface*/) noexcept {
+        return {sky};
+    }
+    template <class AnySurface>
+    static LobeOfSky specular(const Sky& sky, const AnySurface& surface) noexcept {
+        return {sky, surface.lobe};
+    }
+};
+
+LocalLight<Sky> local_sky(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
+                          std::int32_t index, const Vector& emission) noexcept {
+    return {{4 * reflected.job().scene.radius},
+            reflected.lanes(),
+            emission,
+            static_cast<std::uint32_t>(lights.first + index)};
+}
+
+struct UniformSky {
+    using Shape = Sky;
+
+    static LocalLight<Sky> local(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
+                                 std::int32_t index) noexcept {
+        return local_sky(reflected, lights, index,
+                         broadcast<Real>(to_vec(environment_record(lights, index).radiance)));
+    }
+};
+
+void add_uniform_by_cosine(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                           std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = UniformSky::local(reflected, lights, index);
+    add_samples(reflected, light, CosineOfSky{light.shape});
+}
+
+/// All of the lobe counts, as if it were above the horizon.
+void add_uniform_analytically(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                              std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = UniformSky::local(reflected, lights, index);
+    const auto& surface = reflected.surface().glossy;
+    reflected.add_known(light, {surface.diffuse_albedo + surface.specular_albedo, surface.diffuse_albedo});
+}
+
+/// A sky with a map as a packet of shading points sees it, see cell_samples.h.
+class SkyCells {
+public:
+    SkyCells(const render_cpu::EnvironmentRecord& record, const Surface& surface, float distance) noexcept
+        : map_(map_of(record)),
+          frame_{to_map(record, surface.frame.t), to_map(record, surface.frame.b),
+                 to_map(record, surface.frame.n)},
+          distance_(distance) {}
+
+    LaneTechniques<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, [&](int lane) { return DiffuseCells(map_, single_lane<Frame<float>>(frame_, lane)); }};
+    }
+    LaneTechniques<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, [&](int lane) {
+                    return SpecularCells(map_, single_lane<Frame<float>>(frame_, lane),
+                                         {single_lane<Ltc<float>>(lobe, lane)});
+                }};
+    }
+    Vec3<float> radiance(const TexturedSample<float>& sample) const noexcept {
+        return map_.radiance.lookup(sample.at);
+    }
+    Vec3<float> point(const TexturedSample<float>& sample) const noexcept { return distance_ * sample.wi; }
+
+private:
+    const Map& map_;
+    Frame<Real> frame_;
+    float distance_; ///< beyond the scene, from any of its points [m]
+};
+
+template <void (*add)(ReflectedLight&, const SkyCells&, const LocalLight<Sky>&) noexcept>
+void add_mapped(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    // The radiance is part of each sample.
+    const auto light = local_sky(reflected, lights, index, {Real(1), Real(1), Real(1)});
+    if (!any(light.lit)) return;
+    add(reflected, SkyCells(environment_record(lights, index), reflected.surface(), light.shape.distance),
+        light);
+}
+
+void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render_cpu::kMostShapes]) noexcept {
+    if (job.technique == render::Technique::ltc_analytic) {
+        add[0] = &add_uniform_analytically;
+        add[1] = &add_mapped<&add_cell_integrals>;
+    } else if (job.strategies == render::Strategies::diffuse_ltc) {
+        add[0] = &add_by_pair<UniformSky, SkyPair>;
+        add[1] = &add_mapped<&add_by_cell_pair>;
+    } else {
+        add[0] = &add_uniform_by_cosine;
+        add[1] = &add_mapped<&add_by_cells>;
+    }
+}
+
+std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
+    return environment_record(lights, index).map == nullptr ? 0 : 1;
+}
+
+/// Rays do not hit it.
+scene::Float3 emission(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/,
+                       const scene::Float3& /*origin*/, const scene::Float3& /*direction*/) noexcept {
+    return {0, 0, 0};
+}
+
+scene::Float3 background(const render_cpu::LightSet& lights, std::int32_t index,
+                         const scene::Float3& direction) noexcept {
+    const render_cpu::EnvironmentRecord& record = environment_record(lights, index);
+    if (record.map == nullptr) return record.radiance;
+    const Vec3<float> radiance = map_of(record).radiance.lookup(to_map(record, normalize(to_vec(direction))));
+    return {radiance.x, radiance.y, radiance.z};
+}
+
+} // namespace
+} // namespace kernel
+NUSSELT_NAMESPACE_END
+
+namespace nusselt::render_cpu {
+
+LightCode environment_code(LaneCount<kernel::kLanes>) {
+    return {&kernel::choose, &kernel::shape_of, &kernel::emission, &kernel::background};
+}
+
+} // namespace nusselt::render_cpu

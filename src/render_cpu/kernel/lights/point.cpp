@@ -1,0 +1,137 @@
+// Point lights: isotropic ones, spots and images.
+
+#include "render_cpu/kernel/lights/one_direction.h"
+#include "render_cpu/kernel/texture.h"
+#include "render_cpu/lights/point_records.h"
+
+#include <nusselt/core/trig.h>
+
+#include <limits>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+using scene::PointDistribution;
+
+Vector grey(const Real& value) noexcept { return {value, value, value}; }
+
+/// \param across the part of the direction across the axis
+/// \param along  its cosine with the axis
+Real cone(const render_cpu::PointRecord& light, const Vector& across, const Real& along) noexcept {
+    // 1 - cosine, which a difference would cancel in narrow cones.
+    const Real x =
+        select(along > Real(0), dot(across, across) / (Real(1) + max(along, Real(0))), Real(1) - along);
+    const Real t = max(min((Real(light.cone_end) - x) * Real(light.inverse_cone_width), Real(1)), Real(0));
+    if (light.distribution == PointDistribution::quartic_cone) return (t * t) * (t * t);
+    return t * t * (Real(3) - Real(2) * t);
+}
+
+/// The square of an equal-area map of the sphere (Clarberg 2008, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD,
+/// doi:10.1080/2151237X.2008.10129263), with v downwards.
+Vec2<Real> octahedral_place(const Vector& w) noexcept {
+    const Real radius = sqrt(max(Real(1) - abs(w.z), Real(0)));
+    const Real azimuth = Real(2 / kPi<float>) * atan2_positive(abs(w.y), abs(w.x));
+    const Real y = radius * azimuth;
+    const Real x = radius - y;
+    const auto is_below = w.z < Real(0);
+    const Real u = copysign(select(is_below, Real(1) - y, x), w.x);
+    const Real v = copysign(select(is_below, Real(1) - x, y), w.y);
+    return {Real(0.5f) + Real(0.5f) * u, Real(0.5f) + Real(0.5f) * v};
+}
+
+/// Azimuth and inclination in parts of the whole.
+Vec2<Real> latitude_place(const Vector& w) noexcept {
+    const Real half_turn = atan2_positive(abs(w.y), w.x);
+    const Real azimuth = select(w.y < Real(0), Real(2 * kPi<float>) - half_turn, half_turn);
+    const Real inclination = atan2_positive(sqrt(w.x * w.x + w.y * w.y), w.z);
+    return {Real(1 / (2 * kPi<float>)) * azimuth, Real(1 / kPi<float>) * inclination};
+}
+
+/// \param place with v downwards, while rows of textures are numbered upwards
+Vector texel(const render_cpu::KernelScene& scene, const render_cpu::PointRecord& light,
+             const Vec2<Real>& place, LaneMask active) noexcept {
+    if (light.texture < 0) return grey(Real(1));
+    return look_up_texture(scene.textures[light.texture], {place.x, Real(1) - place.y}, active);
+}
+
+Vector projection(const render_cpu::KernelScene& scene, const render_cpu::PointRecord& light, const Vector& w,
+                  LaneMask active) noexcept {
+    const auto is_ahead = w.z > Real(0);
+    const Real depth = select(is_ahead, w.z, Real(1));
+    const Real x = w.x / (depth * Real(light.half_extent.x));
+    const Real y = w.y / (depth * Real(light.half_extent.y));
+    const auto is_inside = is_ahead & (max(abs(x), abs(y)) <= Real(1));
+    const Vec2<Real> place{Real(0.5f) + Real(0.5f) * x, Real(0.5f) + Real(0.5f) * y};
+    return select(is_inside, texel(scene, light, place, active & is_inside), grey(Real(0)));
+}
+
+/// The share of the intensity in a direction. \param away unit, in world space
+Vector share(const render_cpu::KernelScene& scene, const render_cpu::PointRecord& light, const Vector& away,
+             LaneMask active) noexcept {
+    const Vector w{dot(broadcast<Real>(to_vec(light.x_axis)), away),
+                   dot(broadcast<Real>(to_vec(light.y_axis)), away),
+                   dot(broadcast<Real>(to_vec(light.z_axis)), away)};
+    switch (light.distribution) {
+    case PointDistribution::isotropic:
+        break;
+    case PointDistribution::smooth_cone:
+    case PointDistribution::quartic_cone:
+        return grey(cone(light, away - w.z * broadcast<Real>(to_vec(light.z_axis)), w.z));
+    case PointDistribution::octahedral_image:
+        return texel(scene, light, octahedral_place(w), active);
+    case PointDistribution::latitude_image:
+        return texel(scene, light, latitude_place(w), active);
+    case PointDistribution::projected_image:
+        return projection(scene, light, w, active);
+    }
+    return grey(Real(1));
+}
+
+struct PointLight {
+    using Shape = OneDirection;
+
+    static LocalLight<Shape> local(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
+                                   std::int32_t index) noexcept {
+        const auto& record = static_cast<const render_cpu::PointRecord*>(lights.records)[index];
+        const Vector way = broadcast<Real>(to_vec(record.position)) - reflected.surface().position;
+        const Real squared = dot(way, way);
+        // A light in the shading point itself has no direction. NaN stays.
+        const LaneMask usable = !(squared <= Real(std::numeric_limits<float>::min()));
+        const Real inverse = Real(1) / sqrt(select(usable, squared, Real(1)));
+        const Vector to_light = inverse * way;
+        const Vector intensity =
+            bounded(broadcast<Real>(to_vec(record.intensity)) *
+                    share(reflected.job().scene, record, -to_light, reflected.lanes() & usable));
+        return light_in_direction(reflected, to_light, way, usable, (inverse * inverse) * intensity,
+                                  lights.first + index);
+    }
+
+    static LobeIntegrals integrals(const Shape& shape, const Ltc<Real>& lobe) noexcept {
+        return lobes_in_direction(shape, lobe);
+    }
+};
+
+void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render_cpu::kMostShapes]) noexcept {
+    add[0] = one_direction<PointLight>(job);
+}
+
+std::int32_t shape_of(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/) noexcept { return 0; }
+
+/// No ray meets it.
+scene::Float3 emission(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/,
+                       const scene::Float3& /*origin*/, const scene::Float3& /*direction*/) noexcept {
+    return {0, 0, 0};
+}
+
+} // namespace
+} // namespace kernel
+NUSSELT_NAMESPACE_END
+
+namespace nusselt::render_cpu {
+
+LightCode point_code(LaneCount<kernel::kLanes>) {
+    return {&kernel::choose, &kernel::shape_of, &kernel::emission};
+}
+
+} // namespace nusselt::render_cpu

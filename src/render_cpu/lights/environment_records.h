@@ -1,0 +1,26 @@
+#pragma once
+/// Environments in the form that kernels read: plain data, see kernel.h.
+
+#include "render_cpu/kernel.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace nusselt::render_cpu {
+
+/// Columns and rows of the lattice of cells over an environment map.
+inline constexpr int kEnvironmentCells = 8;
+
+struct EnvironmentRecord {
+    scene::Float3 x_axis, y_axis, z_axis; ///< of the map, in world space
+    scene::Float3 radiance;               ///< [W/(sr m^2)]; the mean if there is a map
+    const void* map; ///< an EnvironmentMap<float, kEnvironmentCells>; null for the same radiance everywhere
+};
+
+/// Makes an array of EnvironmentRecord, see LightKernel.
+std::shared_ptr<const void> make_environment_records(const scene::Scene& scene, const scene::LightList& list);
+
+// In kernel/lights/environment.cpp.
+LightCode environment_code(LaneCount<4>), environment_code(LaneCount<8>), environment_code(LaneCount<16>);
+
+} // namespace nusselt::render_cpu

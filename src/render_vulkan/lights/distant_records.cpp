@@ -1,0 +1,23 @@
+// Distant lights, for shaders/passes/lights/distant.glsl.
+
+#include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/record_values.h"
+
+namespace nusselt::render_vulkan {
+
+bool write_distants(const scene::LightList& list, LightRecords& records) {
+    const auto* const distants = dynamic_cast<const scene::LightsOf<scene::DistantLight>*>(&list);
+    if (distants == nullptr) return false;
+    std::vector<interface::DistantLightRecord> lights;
+    for (const scene::DistantLight& light : distants->lights) {
+        const scene::Float3& way = light.direction;
+        interface::DistantLightRecord& record = lights.emplace_back();
+        copy({-way.x, -way.y, -way.z}, record.to_light);
+        copy(light.irradiance, record.irradiance);
+    }
+    records.array_at(interface::kDistantLightsBinding) = make_light_array("distant lights", lights);
+    records.has_shape_of(interface::kDistantsConstant) = !lights.empty();
+    return true;
+}
+
+} // namespace nusselt::render_vulkan

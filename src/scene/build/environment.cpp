@@ -1,0 +1,118 @@
+#include "scene/build/environment.h"
+
+#include "scene/model/vector_math.h"
+
+#include <nusselt/emission/latitude_longitude.h>
+#include <nusselt/emission/octahedral_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tbb/parallel_for.h>
+
+namespace nusselt::scene {
+
+namespace {
+
+constexpr int kSmallestMap = 16;
+constexpr int kLargestMap = 4096;
+
+/// An image with row 0 at the top.
+class ImageLookup {
+public:
+    ImageLookup(const Texture& image, EnvironmentImage kind) : image_(image), kind_(kind) {}
+
+    Double3 texel(int i, int j) const {
+        const auto channels = static_cast<std::size_t>(image_.channels);
+        const auto row = static_cast<std::size_t>(image_.height - 1 - j);
+        const float* const texel =
+            image_.texels.data() +
+            channels * (row * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(i));
+        return channels == 1 ? Double3{texel[0], texel[0], texel[0]} : Double3{texel[0], texel[1], texel[2]};
+    }
+
+    /// Interpolates between texels, across the border where directions do.
+    Double3 operator()(const Vec3<double>& direction) const {
+        const Vec2<double> at = kind_ == EnvironmentImage::latitude
+                                    ? latitude_longitude_coordinates(direction)
+                                    : octahedral_coordinates(direction);
+        const double x = at.x * image_.width - 0.5;
+        const double y = at.y * image_.height - 0.5;
+        const int i = static_cast<int>(std::floor(x));
+        const int j = static_cast<int>(std::floor(y));
+        const double right = x - i;
+        const double down = y - j;
+        return (1 - down) * ((1 - right) * wrapped(i, j) + right * wrapped(i + 1, j)) +
+               down * ((1 - right) * wrapped(i, j + 1) + right * wrapped(i + 1, j + 1));
+    }
+
+private:
+    Double3 wrapped(int i, int j) const {
+        if (kind_ == EnvironmentImage::octahedral) {
+            const Vec2<int> at = wrap_octahedral(i, j, image_.width);
+            return texel(at.x, at.y);
+        }
+        const int column = (i + image_.width) % image_.width;
+        return texel(column, std::clamp(j, 0, image_.height - 1));
+    }
+
+    const Texture& image_;
+    EnvironmentImage kind_;
+};
+
+bool is_power_of_two(int size) { return (size & (size - 1)) == 0; }
+
+int map_size(const Texture& image) {
+    const double side = std::sqrt(static_cast<double>(image.width) * image.height);
+    int size = kSmallestMap;
+    while (size < side && size < kLargestMap) size *= 2;
+    return size;
+}
+
+void fill_rows(const ImageLookup& lookup, bool keeps_texels, EnvironmentMapTexels& map) {
+    // Small suns must not fall between the points.
+    constexpr int kPoints = 4;
+    tbb::parallel_for(0, map.size, [&](int j) {
+        for (int i = 0; i < map.size; ++i) {
+            Double3 sum;
+            for (int k = 0; k < kPoints * kPoints && !keeps_texels; ++k)
+                sum = sum + lookup(octahedral_direction(
+                                Vec2<double>{(i + (k % kPoints + 0.5) / kPoints) / map.size,
+                                             (j + (k / kPoints + 0.5) / kPoints) / map.size}));
+            map.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(map.size) +
+                       static_cast<std::size_t>(i)] =
+                to_float(keeps_texels ? lookup.texel(i, j) : (1.0 / (kPoints * kPoints)) * sum);
+        }
+    });
+}
+
+} // namespace
+
+EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind) {
+    EnvironmentMapTexels map;
+    map.name = image.name;
+    map.size = map_size(image);
+    map.texels.resize(static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size));
+    const bool keeps_texels = kind == EnvironmentImage::octahedral && image.width == map.size &&
+                              image.height == map.size && is_power_of_two(image.width);
+    fill_rows(ImageLookup(image, kind), keeps_texels, map);
+    Double3 sum;
+    for (const Float3& texel : map.texels) sum = sum + to_double(texel);
+    map.mean = to_float((1.0 / static_cast<double>(map.texels.size())) * sum);
+    return map;
+}
+
+Double3 irradiance_of(const EnvironmentMapTexels& map) {
+    Double3 sum;
+    for (int j = 0; j < map.size; ++j) {
+        for (int i = 0; i < map.size; ++i) {
+            const Vec3<double> direction =
+                octahedral_direction(Vec2<double>{(i + 0.5) / map.size, (j + 0.5) / map.size});
+            if (direction.z > 0)
+                sum = sum + direction.z * to_double(map.texels[static_cast<std::size_t>(j * map.size + i)]);
+        }
+    }
+    return (4 * std::numbers::pi / (static_cast<double>(map.size) * map.size)) * sum;
+}
+
+} // namespace nusselt::scene

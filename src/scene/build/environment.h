@@ -1,0 +1,20 @@
+#pragma once
+/// Makes equal-area maps of the octahedron from images of environments.
+
+#include "scene/model/scene.h"
+
+namespace nusselt::scene {
+
+/// How an image shows all directions.
+enum class EnvironmentImage {
+    octahedral, ///< square, equal-area; the upper left corner of the image is that of the map
+    latitude,   ///< azimuth from x to y along its width, inclination from +z at the upper border
+};
+
+/// Square images of a suitable size keep their texels. Others become interpolated maps with at least as many.
+EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind);
+
+/// The irradiance that a surface with the normal z receives of a map [W/m^2], for each channel.
+Double3 irradiance_of(const EnvironmentMapTexels& map);
+
+} // namespace nusselt::scene

@@ -1,0 +1,278 @@
+#include "scene/import/pbrt/directives/light_source_directive.h"
+
+#include "scene/build/emission.h"
+#include "scene/model/vector_math.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// Reads the light of one directive.
+class LightSourceReader {
+public:
+    LightSourceReader(LightSourceDirective& directive, TexturePlanner& textures, Warnings& warnings)
+        : directive_(directive),
+          parameters_(directive.parameters),
+          textures_(textures),
+          warnings_(warnings) {}
+
+    PointLight point();
+    PointLight spot();
+    PointLight goniometric();
+    PointLight projection();
+    DistantLight distant();
+    EnvironmentLight environment();
+
+    std::string subject() const { return "LightSource \"" + directive_.type + '"'; }
+
+private:
+    bool is_v3() const { return directive_.version == PbrtVersion::v3; }
+    [[noreturn]] void fail(std::string_view parameter, const std::string& message) const {
+        throw SceneError(parameters_.location_of(parameter), subject() + ": " + message);
+    }
+    /// The product of a colour and the scale.
+    Float3 emission(std::string_view colour, const EmissionQuantity& quantity);
+    Float3 position(const Float3& from) const;
+    /// The direction from `from` to `to` in world space.
+    Float3 direction(const Float3& from, const Float3& to) const;
+    LightFrame frame() const;
+    void warn_of_skew(const LightFrame& frame) const;
+    /// The image as a request for a texture; -1 if there is none.
+    int image(int channels, TextureWrap wrap);
+
+    LightSourceDirective& directive_;
+    ParameterList& parameters_;
+    TexturePlanner& textures_;
+    Warnings& warnings_;
+};
+
+Float3 LightSourceReader::emission(std::string_view colour, const EmissionQuantity& quantity) {
+    const Float3 value = parameters_.colour(colour, {1, 1, 1}, warnings_, SpectrumUse::illuminant);
+    // v3 also scales by a colour.
+    const auto scale = static_cast<float>(parameters_.real("scale", 1));
+    const Float3 tint = parameters_.colour("scale", {scale, scale, scale}, warnings_);
+    const Float3 product = {value.x * tint.x, value.y * tint.y, value.z * tint.z};
+    check_emission(product, quantity, subject(), parameters_.location());
+    return product;
+}
+
+Float3 LightSourceReader::position(const Float3& from) const {
+    const Float3 position = to_float(transform_point(directive_.world_from_light, to_double(from)));
+    if (!is_valid_coordinate(position)) fail("from", "the position must be finite and within 1e15 m");
+    return position;
+}
+
+Float3 LightSourceReader::direction(const Float3& from, const Float3& to) const {
+    const Double3 way = to_double(to) - to_double(from);
+    if (!(length(way) > 0)) fail("to", "from and to must differ");
+    const Double3 world = transform_vector(directive_.world_from_light, normalized(way));
+    if (!(length(world) > 0) || !std::isfinite(length(world)))
+        fail("", "the transform is singular or not finite");
+    return to_float(normalized(world));
+}
+
+LightFrame LightSourceReader::frame() const {
+    const std::optional<LightFrame> frame = light_frame(directive_.world_from_light);
+    if (!frame) fail("", "the transform is singular or not finite");
+    return *frame;
+}
+
+void LightSourceReader::warn_of_skew(const LightFrame& frame) const {
+    if (!frame.keeps_angles)
+        warnings_.add(parameters_.location(), "light transforms",
+                      subject() + ": the transform does not keep angles; it turns the light but does not "
+                                  "distort it");
+}
+
+int LightSourceReader::image(int channels, TextureWrap wrap) {
+    const std::string_view name = image_parameter(directive_.version);
+    if (parameters_.string(name, "").empty()) return -1;
+    TextureNode node;
+    node.operation = TextureOperation::image;
+    node.image = textures_.image({directive_.image_path, ImageRequest::kSrgb, parameters_.location_of(name)});
+    node.wrap = wrap;
+    node.filter = is_v3() ? TextureFilter::bilinear : TextureFilter::nearest;
+    return textures_.request(textures_.formulas().add(node), channels, parameters_.location());
+}
+
+PointLight LightSourceReader::point() {
+    PointLight light;
+    light.intensity = emission("I", kIntensity);
+    const Float3 from = parameters_.point("from").value_or(Float3{0, 0, 0});
+    if (is_v3()) {
+        // v3 adds the point to the position of its space, in the axes of the world.
+        const Float3 origin = position({0, 0, 0});
+        light.position = to_float(to_double(origin) + to_double(from));
+        if (!is_valid_coordinate(light.position)) fail("from", "the position must be within 1e15 m");
+    } else {
+        light.position = position(from);
+    }
+    return light;
+}
+
+PointLight LightSourceReader::spot() {
+    PointLight light;
+    light.intensity = emission("I", kIntensity);
+    const Float3 from = parameters_.point("from").value_or(Float3{0, 0, 0});
+    const Float3 to = parameters_.point("to").value_or(Float3{0, 0, 1});
+    light.position = position(from);
+    warn_of_skew(frame());
+    light.z_axis = direction(from, to);
+    light.distribution = is_v3() ? PointDistribution::quartic_cone : PointDistribution::smooth_cone;
+    const double cone = parameters_.real("coneangle", 30);
+    // Single precision holds the falloff of narrower cones no more.
+    constexpr double kNarrowest = 1e-6;
+    if (!(cone >= kNarrowest && cone <= 180))
+        fail("coneangle",
+             "coneangle must be from " + to_text(kNarrowest) + " to 180 degrees, found " + to_text(cone));
+    const double delta = parameters_.real("conedeltaangle", 5);
+    if (!(delta >= 0 && delta <= 2 * cone))
+        fail("conedeltaangle", "conedeltaangle must be from 0 to twice the coneangle of " + to_text(cone) +
+                                   " degrees, found " + to_text(delta));
+    light.cone_angle = static_cast<float>(cone);
+    // Beyond the axis, pbrt counts the angle on the other side.
+    light.full_angle = static_cast<float>(std::fabs(cone - delta));
+    return light;
+}
+
+PointLight LightSourceReader::goniometric() {
+    PointLight light;
+    light.intensity = emission("I", kIntensity);
+    light.position = position({0, 0, 0});
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    // The pole of the image is y, and azimuths grow from x to z.
+    light.x_axis = axes.x;
+    light.y_axis = axes.z;
+    light.z_axis = axes.y;
+    light.texture = is_v3() ? image(3, TextureWrap::repeat) : image(1, TextureWrap::clamp);
+    if (light.texture >= 0)
+        light.distribution =
+            is_v3() ? PointDistribution::latitude_image : PointDistribution::octahedral_image;
+    else
+        warnings_.add(parameters_.location(), subject() + ": without \"string " +
+                                                  std::string(image_parameter(directive_.version)) +
+                                                  "\" it is equally bright in all directions");
+    return light;
+}
+
+PointLight LightSourceReader::projection() {
+    PointLight light;
+    // v4 has no colour beside the image.
+    const auto scale = static_cast<float>(parameters_.real("scale", 1));
+    light.intensity = {scale, scale, scale};
+    if (is_v3()) light.intensity = emission("I", kIntensity);
+    check_emission(light.intensity, kIntensity, subject(), parameters_.location());
+    light.position = position({0, 0, 0});
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    light.x_axis = axes.x;
+    light.z_axis = axes.z;
+    // The upper border of the image is at the lowest y in v3, and at the highest one in v4.
+    light.y_axis = is_v3() ? axes.y : Float3{-axes.y.x, -axes.y.y, -axes.y.z};
+    light.distribution = PointDistribution::projected_image;
+    const double fov = parameters_.real("fov", is_v3() ? 45 : 90);
+    if (!(fov > 0 && fov < 180)) fail("fov", "fov must lie between 0 and 180 degrees, found " + to_text(fov));
+    const auto half = static_cast<float>(std::tan(fov * (std::numbers::pi / 360)));
+    light.half_extent = {half, half};
+    light.texture = image(3, TextureWrap::clamp);
+    if (light.texture < 0 && !is_v3()) fail("filename", "parameter \"string filename\" is missing");
+    return light;
+}
+
+DistantLight LightSourceReader::distant() {
+    DistantLight light;
+    light.irradiance = emission("L", kIrradiance);
+    const std::optional<double> illuminance = parameters_.optional_real("illuminance");
+    // In pbrt negative values, -1 by default, stand for none.
+    if (illuminance && *illuminance > 0)
+        light.irradiance = to_float(*illuminance * to_double(light.irradiance));
+    check_emission(light.irradiance, kIrradiance, subject(), parameters_.location());
+    const Float3 from = parameters_.point("from").value_or(Float3{0, 0, 0});
+    light.direction = direction(from, parameters_.point("to").value_or(Float3{0, 0, 1}));
+    return light;
+}
+
+EnvironmentLight LightSourceReader::environment() {
+    EnvironmentLight light;
+    light.radiance = emission("L", kRadiance);
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    light.x_axis = axes.x;
+    light.y_axis = axes.y;
+    light.z_axis = axes.z;
+    light.map = image(3, TextureWrap::repeat);
+    if (!parameters_.points("portal").empty())
+        warnings_.add(parameters_.location_of("portal"),
+                      subject() +
+                          ": the portal is not used; the light is the same where the scene encloses it");
+    return light;
+}
+
+using AnyLight = std::variant<PointLight, DistantLight, EnvironmentLight>;
+
+struct LightSourceType {
+    std::string_view type;
+    std::string_view kind; ///< LightSourceDescription::kind
+    AnyLight (*read)(LightSourceReader& reader);
+};
+
+constexpr LightSourceType kTypes[] = {
+    {"point", "point light", [](LightSourceReader& reader) -> AnyLight { return reader.point(); }},
+    {"spot", "spot light", [](LightSourceReader& reader) -> AnyLight { return reader.spot(); }},
+    {"distant", "distant light", [](LightSourceReader& reader) -> AnyLight { return reader.distant(); }},
+    {"goniometric", "goniometric light",
+     [](LightSourceReader& reader) -> AnyLight { return reader.goniometric(); }},
+    {"projection", "projection light",
+     [](LightSourceReader& reader) -> AnyLight { return reader.projection(); }},
+    {"infinite", "environment", [](LightSourceReader& reader) -> AnyLight { return reader.environment(); }},
+};
+
+const LightSourceType* find_type(std::string_view type) {
+    const auto* const found = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                           [&](const LightSourceType& row) { return row.type == type; });
+    return found == std::end(kTypes) ? nullptr : found;
+}
+
+bool is_dark(const AnyLight& light) {
+    return std::visit(
+        [](const auto& any) { return is_black(any.*LightKind<std::decay_t<decltype(any)>>::kEmission); },
+        light);
+}
+
+} // namespace
+
+bool is_supported_light_source(std::string_view type) { return find_type(type) != nullptr; }
+
+std::string_view image_parameter(PbrtVersion version) {
+    return version == PbrtVersion::v3 ? "mapname" : "filename";
+}
+
+std::optional<LightSourceDescription> read_light_source(LightSourceDirective& directive,
+                                                        TexturePlanner& textures, Warnings& warnings) {
+    LightSourceReader reader(directive, textures, warnings);
+    const LightSourceType& type = *find_type(directive.type);
+    ParameterList& parameters = directive.parameters;
+    LightSourceDescription source{type.kind, parameters.location(), type.read(reader)};
+    if (std::holds_alternative<PointLight>(source.light)) {
+        const std::optional<double> power = parameters.optional_real("power");
+        if (power && *power > 0) source.power = power;
+    }
+    if (std::holds_alternative<EnvironmentLight>(source.light)) {
+        const std::optional<double> illuminance = parameters.optional_real("illuminance");
+        if (illuminance && *illuminance > 0) source.irradiance = illuminance;
+    }
+    // v3 took samples of lights of any kind.
+    parameters.ignore({"samples", "nsamples"});
+    parameters.warn_unused("LightSource", warnings);
+    if (!is_dark(source.light)) return source;
+    warnings.add(source.origin, reader.subject() + ": skipped because it does not emit light");
+    return std::nullopt;
+}
+
+} // namespace nusselt::scene
