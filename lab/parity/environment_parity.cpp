@@ -64,7 +64,7 @@ struct OnLobe {
 };
 
 /// How surfaces lie in the map.
-enum class Surfaces { random, axes, at_sunset, hostile };
+enum class Surfaces { random, in_planes, at_sunset, hostile };
 
 struct Class {
     const char* name;
@@ -74,7 +74,7 @@ struct Class {
 
 constexpr Class kClasses[] = {
     {"sky", Surroundings::sky, Surfaces::random},
-    {"sky, along axes", Surroundings::sky, Surfaces::axes},
+    {"sky, normals in coordinate planes", Surroundings::sky, Surfaces::in_planes},
     {"sun", Surroundings::sun, Surfaces::random},
     {"sun at the horizon", Surroundings::sun, Surfaces::at_sunset},
     {"rough", Surroundings::rough, Surfaces::random},
@@ -91,12 +91,14 @@ Vec3<double> draw_normal(RandomSource& random, Surfaces surfaces) {
         const Vec3<double> sun = normalize(Vec3<double>{0.5, 0.3, 0.6});
         return normalize(normalize(cross(direction, sun)) + random.between(-0.1, 0.1) * sun);
     }
-    const double axis = random.index(2) == 0 ? 1 : -1;
-    const double off = surfaces == Surfaces::axes ? 0 : random.log_between(1e-20, 1e-3);
+    const double angle = random.between(0, 2 * kPi<double>);
+    const double off = random.log_between(1e-20, 1e-3);
+    const double x = surfaces == Surfaces::hostile ? 1 - 2 * random.index(2) : std::cos(angle);
+    const double y = surfaces == Surfaces::hostile ? off : std::sin(angle);
     const int which = random.index(3);
-    return normalize((which == 0   ? Vec3<double>{axis, off, 0}
-                      : which == 1 ? Vec3<double>{off, axis, 0}
-                                   : Vec3<double>{0, off, axis}));
+    return normalize(which == 0   ? Vec3<double>{x, y, 0}
+                     : which == 1 ? Vec3<double>{y, 0, x}
+                                  : Vec3<double>{0, x, y});
 }
 
 Scene draw_scene(Surfaces surfaces, int number) {

@@ -5,8 +5,8 @@
 
 #include "../emission/texel_choice.glsl"
 
-/// A density on [0, 1] that is linear from the lower edge of a texel to its centre, and from there to the upper edge: the
-/// interpolation between the texel and its two neighbours.
+/// A density on [0, 1] that is linear from the lower edge of a texel to its centre, and from there to the upper edge:
+/// the interpolation between the texel and its two neighbours.
 struct TexelTent {
     float before, middle, after; ///< at the centres of texels, not negative; not normalised
 };

@@ -2,8 +2,8 @@
 #define NUSSELT_EMISSION_CELL_SUMS_GLSL
 // Follows include/nusselt/emission/cell_sums.h @ aa7e31506e73
 /// How samples choose one cell of a lattice: a column, then a cell of it, in proportion to weights. Twin of
-/// include/nusselt/emission/cell_sums.h. The array of weights becomes that of their sums, and sums over columns are added up
-/// again where they are needed: a thread has one number per cell.
+/// include/nusselt/emission/cell_sums.h. Sums over columns are added up again where they are needed: a thread has one
+/// number per cell.
 
 #include "../core/real.glsl"
 

@@ -1,8 +1,8 @@
 #ifndef NUSSELT_EMISSION_ENVIRONMENT_CELLS_GLSL
 #define NUSSELT_EMISSION_ENVIRONMENT_CELLS_GLSL
 // Follows include/nusselt/emission/environment_sampling.h @ 8f0ca19cdfd4
-/// What EnvironmentCosine and EnvironmentLtc share: sums over cells, and points in texels. Twin of EnvironmentSampler in
-/// include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
+/// What EnvironmentCosine and EnvironmentLtc share: sums over cells, and points in texels. Twin of EnvironmentSampler
+/// in include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
 
 #include "../core/frame.glsl"
 #include "../emission/cell_sums.glsl"
@@ -69,23 +69,21 @@ vec2 environment_cells_inside(EnvironmentCells self, ivec2 texel, vec2 at) {
     return at * float(environment_map_size(self.map)) - vec2(texel);
 }
 
-/// The texel of a point, with the random numbers inside of it.
+/// The texel of a point.
 /// \param at in [0, 1)^2.
 TexelChoice environment_cells_texel_at(EnvironmentCells self, vec2 at) {
     int size = environment_map_size(self.map);
-    ivec2 texel = clamp(ivec2(at * float(size)), ivec2(0), ivec2(size - 1));
-    vec2 u = bilinear_texel_invert(environment_map_interpolant(self.map, texel),
-                                   environment_cells_inside(self, texel, at));
-    return TexelChoice(texel, 1.0, u);
+    return TexelChoice(clamp(ivec2(at * float(size)), ivec2(0), ivec2(size - 1)), 1.0, vec2(0.0));
 }
 
 /// The density of a point in a texel with this probability [1/sr].
-float environment_cells_density(EnvironmentCells self, float probability, ivec2 texel, vec2 at, vec3 wi) {
+/// \param wi the direction of the point.
+float environment_cells_density(EnvironmentCells self, float probability, ivec2 texel, BilinearTexel interpolant,
+                                vec2 at, vec3 wi) {
     float mean = environment_map_texel_weight(self.map, texel);
     if (!(mean > 0.0) || !(wi.z > self.lowest)) return 0.0;
     float size = float(environment_map_size(self.map));
-    float value = bilinear_texel_at(environment_map_interpolant(self.map, texel),
-                                    environment_cells_inside(self, texel, at));
+    float value = bilinear_texel_at(interpolant, environment_cells_inside(self, texel, at));
     float share = environment_map_scale(self.map) * value / mean;
     return probability * share * (size * size / (4.0 * kNusseltPi));
 }
@@ -94,11 +92,13 @@ float environment_cells_density(EnvironmentCells self, float probability, ivec2 
 /// \param texel with the random numbers that are left.
 TexturedSample environment_cells_sample(EnvironmentCells self, CellChoice cell, TexelChoice texel) {
     float step_size = reciprocal_power_of_two(float(environment_map_size(self.map)));
-    vec2 inside = bilinear_texel_sample(environment_map_interpolant(self.map, texel.at), texel.u);
+    BilinearTexel interpolant = environment_map_interpolant(self.map, texel.at);
+    vec2 inside = bilinear_texel_sample(interpolant, texel.u);
     vec2 at = vec2(environment_cells_position(texel.at.x, inside.x, step_size),
                    environment_cells_position(texel.at.y, inside.y, step_size));
     vec3 wi = frame_to_local(self.frame, octahedral_direction(at));
-    float density = environment_cells_density(self, cell.probability * texel.probability, texel.at, at, wi);
+    float density =
+        environment_cells_density(self, cell.probability * texel.probability, texel.at, interpolant, at, wi);
     return TexturedSample(wi, density, kNusseltEnvironmentDistance * wi, at);
 }
 

@@ -6,8 +6,8 @@
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: shading space; the normal is +z.
-/// Edge cases: black maps: pdf = 0, measure 0. Each direction that the map lights above the horizon has a positive density,
-/// unless its radiance is below 1e-38 of the largest. Few samples end below the horizon, with pdf = 0.
+/// Edge cases: black maps: pdf = 0, measure 0. Each direction that the map lights above the horizon has a positive
+/// density, unless its radiance is below 1e-38 of the largest. Few samples end below the horizon, with pdf = 0.
 
 #include "../emission/environment_cells.glsl"
 #include "../emission/smooth_clamp.glsl"
@@ -36,8 +36,8 @@ EnvironmentCosine environment_cosine_prepare(uint map, Frame frame) {
 /// An estimate of the integral of radiance, averaged over channels, times the cosine [W/m^2].
 float environment_cosine_measure(EnvironmentCosine self) { return environment_cells_measure(self.cells); }
 
-/// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics for
-/// multiple importance sampling, an estimate as the measure.
+/// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
+/// for multiple importance sampling, an estimate as the measure.
 vec3 environment_cosine_unshadowed(EnvironmentCosine self) {
     return self.cells.unshadowed;
 }
@@ -77,8 +77,10 @@ TexturedSample environment_cosine_sample(EnvironmentCosine self, vec2 u) {
 float environment_cosine_density(EnvironmentCosine self, vec2 at, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     TexelChoice texel = environment_cells_texel_at(self.cells, at);
-    float probability = cell_sums_at(self.cells.sums, at).probability * environment_cosine_ascend(self, texel).probability;
-    return environment_cells_density(self.cells, probability, texel.at, at, wi);
+    float of_cell = cell_sums_at(self.cells.sums, at).probability;
+    float in_cell = environment_cosine_ascend(self, texel).probability;
+    return environment_cells_density(self.cells, of_cell * in_cell, texel.at,
+                                     environment_map_interpolant(self.cells.map, texel.at), at, wi);
 }
 
 /// \param wi unit.
@@ -96,8 +98,10 @@ float environment_cosine_pdf_at(EnvironmentCosine self, vec2 at) {
 vec2 environment_cosine_invert(EnvironmentCosine self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     vec2 at = octahedral_coordinates(frame_to_world(self.cells.frame, wi));
-    TexelChoice texel = environment_cosine_ascend(self, environment_cells_texel_at(self.cells, at));
-    return cell_choice_united(cell_sums_at(self.cells.sums, at), texel.u);
+    TexelChoice texel = environment_cells_texel_at(self.cells, at);
+    texel.u = bilinear_texel_invert(environment_map_interpolant(self.cells.map, texel.at),
+                                    environment_cells_inside(self.cells, texel.at, at));
+    return cell_choice_united(cell_sums_at(self.cells.sums, at), environment_cosine_ascend(self, texel).u);
 }
 
 #endif

@@ -5,8 +5,8 @@
 /// include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
-/// Space: shading space with wo in the xz half-plane (shading_frame()). Samples may lie below the surface, wi.z < 0: they
-/// count, with a contribution of zero.
+/// Space: shading space with wo in the xz half-plane (shading_frame()). Samples may lie below the surface, wi.z < 0:
+/// they count, with a contribution of zero.
 /// Edge cases: black maps: pdf = 0, measure 0. Each direction that the map lights has a positive density, unless its
 /// radiance is below 1e-38 of the largest.
 
@@ -49,8 +49,8 @@ EnvironmentLobe environment_lobe_prepare(Ltc ltc, Frame frame) {
     return self;
 }
 
-/// About the mean densities in four elements: those in the mean directions, widened by the variance, with the same integral.
-/// The area of a narrow lobe grows with the variance, and a Lambertian lobe remains.
+/// About the mean densities in four elements: those in the mean directions, widened by the variance, with the same
+/// integral. The area of a narrow lobe grows with the variance, and a Lambertian lobe remains.
 vec4 environment_ltc_factor(EnvironmentLobe self, EnvironmentElements four) {
     vec4 x = self.column_x.x * four.x + (self.column_y.x * four.y + self.column_z.x * four.z);
     vec4 y = self.column_x.y * four.x + (self.column_y.y * four.y + self.column_z.y * four.z);
@@ -116,8 +116,10 @@ TexturedSample environment_ltc_sample(EnvironmentLtc self, vec2 u) {
 float environment_ltc_density(EnvironmentLtc self, vec2 at, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     TexelChoice texel = environment_cells_texel_at(self.cells, at);
-    float probability = cell_sums_at(self.cells.sums, at).probability * environment_ltc_ascend(self, texel).probability;
-    return environment_cells_density(self.cells, probability, texel.at, at, wi);
+    float of_cell = cell_sums_at(self.cells.sums, at).probability;
+    float in_cell = environment_ltc_ascend(self, texel).probability;
+    return environment_cells_density(self.cells, of_cell * in_cell, texel.at,
+                                     environment_map_interpolant(self.cells.map, texel.at), at, wi);
 }
 
 /// \param wi unit.
@@ -135,8 +137,10 @@ float environment_ltc_pdf_at(EnvironmentLtc self, vec2 at) {
 vec2 environment_ltc_invert(EnvironmentLtc self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     vec2 at = octahedral_coordinates(frame_to_world(self.cells.frame, wi));
-    TexelChoice texel = environment_ltc_ascend(self, environment_cells_texel_at(self.cells, at));
-    return cell_choice_united(cell_sums_at(self.cells.sums, at), texel.u);
+    TexelChoice texel = environment_cells_texel_at(self.cells, at);
+    texel.u = bilinear_texel_invert(environment_map_interpolant(self.cells.map, texel.at),
+                                    environment_cells_inside(self.cells, texel.at, at));
+    return cell_choice_united(cell_sums_at(self.cells.sums, at), environment_ltc_ascend(self, texel).u);
 }
 
 #endif

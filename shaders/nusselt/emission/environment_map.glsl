@@ -2,8 +2,8 @@
 #define NUSSELT_EMISSION_ENVIRONMENT_MAP_GLSL
 // Follows include/nusselt/emission/environment_map.h @ 8b46d0aeda5b
 // Follows include/nusselt/emission/environment_map_words.h @ f237a5545f0e
-/// What sampling needs to know about an environment map, from its texels and from the words that EnvironmentMapWords of C++
-/// writes once per map. Twin of include/nusselt/emission/environment_map.h and environment_map_words.h.
+/// What sampling needs to know about an environment map, from its texels and from the words that EnvironmentMapWords of
+/// C++ writes once per map. Twin of include/nusselt/emission/environment_map.h and environment_map_words.h.
 ///
 /// Both are in buffers or textures of the program, which says how to fetch them: it defines the functions
 /// environment_map_word() and environment_map_texel(), before or after the #include. For instance, for one map:
@@ -47,8 +47,8 @@ int environment_map_levels(uint map) { return int(environment_map_word(map + kNu
 /// A power of two, in weights: the brightest texel has a weight of order one.
 float environment_map_scale(uint map) { return environment_map_float(map + kNusseltMapScale); }
 
-/// Four elements of a grid: the parts (0, 0), (1, 0), (0, 1), (1, 1) of an element of the next grid, or neighbouring cells of
-/// a row.
+/// Four elements of a grid: the parts (0, 0), (1, 0), (0, 1), (1, 1) of an element of the next grid, or neighbouring
+/// cells of a row.
 struct EnvironmentElements {
     vec4 weight;   ///< mean radiance, averaged over channels, times the scale
     vec4 x, y, z;  ///< mean directions, weighted by radiance: shorter than one

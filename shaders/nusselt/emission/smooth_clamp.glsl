@@ -5,7 +5,8 @@
 
 #include "../core/trig.glsl"
 
-/// About the mean of max(0, X) for a normal X: (mean + sqrt(mean^2 + 2 variance / pi)) / 2. Positive if the variance is.
+/// About the mean of max(0, X) for a normal X: (mean + sqrt(mean^2 + 2 variance / pi)) / 2. Positive if the variance
+/// is.
 float smooth_clamp(float mean, float variance) {
     float root = sqrt(nusselt_fma(mean, mean, (2.0 / kNusseltPi) * variance));
     float sum = root + abs(mean);

@@ -28,8 +28,8 @@ float unite_of_two(float first, float second, bool chosen, float u) {
     return total > 0.0 ? below_one((chosen ? first + u * second : u * first) / total) : 0.0;
 }
 
-/// Goes from an element to one of its parts. With one random number per direction, the order of texels in each direction is
-/// kept.
+/// Goes from an element to one of its parts. With one random number per direction, the order of texels is kept in each
+/// of them.
 /// \param weight of the parts (0, 0), (1, 0), (0, 1), (1, 1). Those that do not exist weigh nothing.
 /// \param parts  columns and rows of them, 1 or 2 each.
 void descend_to_part(inout TexelChoice choice, vec4 weight, ivec2 parts) {
