@@ -1,5 +1,5 @@
 #pragma once
-/// Parity of techniques for environment maps. Their maps are made here: lights of the other techniques have no radiance.
+/// Parity of techniques for environment maps. They are made here: lights of the other techniques have no radiance.
 
 #include "gpu/device.h"
 #include "lab/parity/parity_check.h"
