@@ -38,9 +38,9 @@ BEGIN {
     allow("src/scene/model", "library src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/sky", "src/scene/model src/scene/colour")
-    allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour")
+    allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour src/scene/sky")
     allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
-    below = "src/scene/input src/scene/model src/scene/colour src/scene/build"
+    below = "src/scene/input src/scene/model src/scene/colour src/scene/sky src/scene/build"
     allow("src/scene/import/ply", below)
     allow("src/scene/import/ies", below " src/scene/import")
     allow("src/scene/import/pbrt", below " src/scene/import/ply")

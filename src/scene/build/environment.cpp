@@ -1,6 +1,7 @@
 #include "scene/build/environment.h"
 
 #include "scene/model/vector_math.h"
+#include "scene/sky/preetham_sky.h"
 
 #include <nusselt/emission/latitude_longitude.h>
 #include <nusselt/emission/octahedral_map.h>
@@ -69,24 +70,72 @@ int map_size(const Texture& image) {
     return size;
 }
 
+/// The mean of a function over a texel. \param points on each side
+template <class Function>
+Double3 mean_over_texel(int i, int j, int size, int points, const Function& f) {
+    Double3 sum;
+    for (int k = 0; k < points * points; ++k)
+        sum = sum + f(octahedral_direction(Vec2<double>{(i + (k % points + 0.5) / points) / size,
+                                                        (j + (k / points + 0.5) / points) / size}));
+    return (1.0 / (points * points)) * sum;
+}
+
 void fill_rows(const ImageLookup& lookup, bool keeps_texels, EnvironmentMapTexels& map) {
     // Small suns must not fall between the points.
     constexpr int kPoints = 4;
     tbb::parallel_for(0, map.size, [&](int j) {
-        for (int i = 0; i < map.size; ++i) {
-            Double3 sum;
-            for (int k = 0; k < kPoints * kPoints && !keeps_texels; ++k)
-                sum = sum + lookup(octahedral_direction(
-                                Vec2<double>{(i + (k % kPoints + 0.5) / kPoints) / map.size,
-                                             (j + (k / kPoints + 0.5) / kPoints) / map.size}));
-            map.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(map.size) +
-                       static_cast<std::size_t>(i)] =
-                to_float(keeps_texels ? lookup.texel(i, j) : (1.0 / (kPoints * kPoints)) * sum);
-        }
+        for (int i = 0; i < map.size; ++i)
+            map.texels[static_cast<std::size_t>(j * map.size + i)] = to_float(
+                keeps_texels ? lookup.texel(i, j) : mean_over_texel(i, j, map.size, kPoints, lookup));
     });
 }
 
+void set_mean(EnvironmentMapTexels& map) {
+    Double3 sum;
+    for (const Float3& texel : map.texels) sum = sum + to_double(texel);
+    map.mean = to_float((1.0 / static_cast<double>(map.texels.size())) * sum);
+}
+
 } // namespace
+
+EnvironmentMapTexels make_sky_map(const SkyDescription& description) {
+    const PreethamSky sky(description.turbidity, description.to_sun);
+    EnvironmentMapTexels map;
+    map.name = "sky";
+    map.size = 1024;
+    map.texels.resize(static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size));
+    const auto radiance = [&](const Vec3<double>& d) {
+        const Double3 direction = {d.x, d.y, d.z};
+        if (direction.z < 0) return Double3{};
+        return sky.is_in_sun(direction) ? sky.sun_radiance() : sky.sky_radiance(direction);
+    };
+    const auto for_each_texel = [&](const auto& change) {
+        tbb::parallel_for(0, map.size, [&](int j) {
+            for (int i = 0; i < map.size; ++i) {
+                const Vec3<double> centre =
+                    octahedral_direction(Vec2<double>{(i + 0.5) / map.size, (j + 0.5) / map.size});
+                // The disk of the sun is a few texels wide, and the horizon is an edge.
+                const bool is_near_sun = dot(Double3{centre.x, centre.y, centre.z}, sky.to_sun()) > 1 - 1e-4;
+                const bool is_near_horizon = std::fabs(centre.z) < 8.0 / map.size;
+                change(map.texels[static_cast<std::size_t>(j * map.size + i)], i, j,
+                       is_near_sun       ? 32
+                       : is_near_horizon ? 8
+                                         : 1);
+            }
+        });
+    };
+    for_each_texel([&](Float3& texel, int i, int j, int points) {
+        texel = to_float(mean_over_texel(i, j, map.size, points, radiance));
+    });
+    const Double3 ground =
+        (1 / std::numbers::pi) * per_channel_product(to_double(description.ground), irradiance_of(map));
+    for_each_texel([&](Float3& texel, int i, int j, int points) {
+        const auto below = [&](const Vec3<double>& d) { return d.z < 0 ? ground : Double3{}; };
+        texel = to_float(to_double(texel) + mean_over_texel(i, j, map.size, points, below));
+    });
+    set_mean(map);
+    return map;
+}
 
 EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind) {
     EnvironmentMapTexels map;
@@ -96,9 +145,7 @@ EnvironmentMapTexels make_environment_map_texels(const Texture& image, Environme
     const bool keeps_texels = kind == EnvironmentImage::octahedral && image.width == map.size &&
                               image.height == map.size && is_power_of_two(image.width);
     fill_rows(ImageLookup(image, kind), keeps_texels, map);
-    Double3 sum;
-    for (const Float3& texel : map.texels) sum = sum + to_double(texel);
-    map.mean = to_float((1.0 / static_cast<double>(map.texels.size())) * sum);
+    set_mean(map);
     return map;
 }
 

@@ -14,6 +14,16 @@ enum class EnvironmentImage {
 /// Square images of a suitable size keep their texels. Others become interpolated maps with at least as many.
 EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind);
 
+/// A sky by formulas, in the space of the light with the zenith at +z.
+struct SkyDescription {
+    double turbidity = 3;               ///< see PreethamSky
+    Double3 to_sun = {0, 0, 1};         ///< not zero
+    Float3 ground = {0.2f, 0.2f, 0.2f}; ///< diffuse albedo of the ground below the horizon
+};
+
+/// The sky with the disk of the sun, and below the horizon a ground that both light.
+EnvironmentMapTexels make_sky_map(const SkyDescription& sky);
+
 /// The irradiance that a surface with the normal z receives of a map [W/m^2], for each channel.
 Double3 irradiance_of(const EnvironmentMapTexels& map);
 

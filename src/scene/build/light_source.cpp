@@ -1,7 +1,6 @@
 #include "scene/build/light_source.h"
 
 #include "scene/build/emission.h"
-#include "scene/build/environment.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
@@ -125,10 +124,13 @@ EnvironmentImage image_kind(const LightSourceDescription& source, const Texture&
 bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures,
             EnvironmentLight& light, BuiltShape& shapes) {
     Double3 irradiance = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
-    if (light.map >= 0) {
-        const Texture& image = textures[static_cast<std::size_t>(light.map)];
-        auto map = std::make_shared<EnvironmentMapTexels>(
-            make_environment_map_texels(image, image_kind(source, image, shapes.warnings)));
+    if (light.map >= 0 || source.sky) {
+        const auto of_image = [&] {
+            const Texture& image = textures[static_cast<std::size_t>(light.map)];
+            return make_environment_map_texels(image, image_kind(source, image, shapes.warnings));
+        };
+        auto map =
+            std::make_shared<EnvironmentMapTexels>(source.sky ? make_sky_map(*source.sky) : of_image());
         irradiance = irradiance_of(*map);
         for (const Float3& texel : map->texels)
             check_emission(product(light.radiance, texel), kRadiance, subject_of(source), source.origin);

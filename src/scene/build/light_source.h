@@ -2,6 +2,7 @@
 /// Lights that are no shapes, as importers describe them.
 
 #include "scene/build/built_shape.h"
+#include "scene/build/environment.h"
 #include "scene/model/transform.h"
 
 #include <optional>
@@ -24,6 +25,8 @@ struct LightSourceDescription {
     std::optional<double> power = {};
     /// Of environments: what a surface with their axis z as its normal receives, likewise [W/m^2].
     std::optional<double> irradiance = {};
+    /// Of environments: a sky in place of an image. Radiance is a factor then.
+    std::optional<SkyDescription> sky = {};
 };
 
 /// The axes of the space of a light in world space.

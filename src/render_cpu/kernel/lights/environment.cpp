@@ -66,7 +66,7 @@ struct LobeOfSky {
     Ltc<Real> lobe;
 
     LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const Vector wi = normalize(lobe.from_cosine(CosineOfSky::sample_cosine(u)));
+        const Vector wi = normalize(lobe.to_shading(CosineOfSky::sample_cosine(u)));
         return {wi, pdf(wi), sky.point(wi)};
     }
     Real pdf(const Vector& wi) const noexcept { return lobe.density(wi); }

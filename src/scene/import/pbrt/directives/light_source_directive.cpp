@@ -2,6 +2,7 @@
 
 #include "scene/build/emission.h"
 #include "scene/model/vector_math.h"
+#include "scene/sky/preetham_sky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,8 @@ public:
     PointLight projection();
     DistantLight distant();
     EnvironmentLight environment();
+    EnvironmentLight sky();
+    SkyDescription sky_description();
 
     std::string subject() const { return "LightSource \"" + directive_.type + '"'; }
 
@@ -214,6 +217,36 @@ EnvironmentLight LightSourceReader::environment() {
     return light;
 }
 
+EnvironmentLight LightSourceReader::sky() {
+    EnvironmentLight light;
+    const auto scale = static_cast<float>(parameters_.real("scale", 1));
+    light.radiance = {scale, scale, scale};
+    check_emission(light.radiance, kRadiance, subject(), parameters_.location());
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    light.x_axis = axes.x;
+    light.y_axis = axes.y;
+    light.z_axis = axes.z;
+    return light;
+}
+
+SkyDescription LightSourceReader::sky_description() {
+    SkyDescription sky;
+    sky.turbidity = parameters_.real("turbidity", sky.turbidity);
+    if (!(sky.turbidity >= PreethamSky::kLeastTurbidity && sky.turbidity <= PreethamSky::kMostTurbidity))
+        fail("turbidity", "turbidity must be from " + to_text(PreethamSky::kLeastTurbidity) + " to " +
+                              to_text(PreethamSky::kMostTurbidity) + ", found " + to_text(sky.turbidity));
+    sky.to_sun = to_double(parameters_.point("sun").value_or(Float3{0, 0, 1}));
+    const double distance = length(sky.to_sun);
+    if (!(distance > 0) || !std::isfinite(distance)) fail("sun", "the direction to the sun must not be zero");
+    sky.to_sun = (1 / distance) * sky.to_sun;
+    sky.ground = parameters_.colour("ground", sky.ground, warnings_);
+    for (const float albedo : {sky.ground.x, sky.ground.y, sky.ground.z})
+        if (!(albedo >= 0 && albedo <= 1))
+            fail("ground", "the albedo of the ground must be from 0 to 1, found " + to_text(albedo));
+    return sky;
+}
+
 using AnyLight = std::variant<PointLight, DistantLight, EnvironmentLight>;
 
 struct LightSourceType {
@@ -231,6 +264,8 @@ constexpr LightSourceType kTypes[] = {
     {"projection", "projection light",
      [](LightSourceReader& reader) -> AnyLight { return reader.projection(); }},
     {"infinite", "environment", [](LightSourceReader& reader) -> AnyLight { return reader.environment(); }},
+    // An extension.
+    {"sky", "sky", [](LightSourceReader& reader) -> AnyLight { return reader.sky(); }},
 };
 
 const LightSourceType* find_type(std::string_view type) {
@@ -263,7 +298,9 @@ std::optional<LightSourceDescription> read_light_source(LightSourceDirective& di
         const std::optional<double> power = parameters.optional_real("power");
         if (power && *power > 0) source.power = power;
     }
-    if (std::holds_alternative<EnvironmentLight>(source.light)) {
+    if (directive.type == "sky") {
+        source.sky = reader.sky_description();
+    } else if (std::holds_alternative<EnvironmentLight>(source.light)) {
         const std::optional<double> illuminance = parameters.optional_real("illuminance");
         if (illuminance && *illuminance > 0) source.irradiance = illuminance;
     }
