@@ -38,7 +38,8 @@ TEST_F(EnvironmentMutants, MapsThatAreNotContinuousAtTheirEdgesAreFound) {
     EXPECT_GT(count_of(excesses, "rough: density of the sample, tail"), 0);
     EXPECT_GT(count_of(excesses, "rough: hit point, tail"), 0);
     EXPECT_EQ(count_of(excesses, "rough: measure"), 0) << "weights come from C++";
-    EXPECT_EQ(count_of(excesses, "constant: density"), 0) << "texels across the edge are the same";
+    EXPECT_EQ(count_of(excesses, "constant: density of the sample"), 0)
+        << "texels across the edge are the same";
 }
 
 } // namespace
