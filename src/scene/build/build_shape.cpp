@@ -1,8 +1,8 @@
 #include "scene/build/build_shape.h"
 
-#include "scene/build/polygon_light.h"
+#include "scene/build/lights/polygon_light.h"
+#include "scene/build/lights/tube_light.h"
 #include "scene/build/tessellate.h"
-#include "scene/build/tube_light.h"
 #include "scene/input/file_bytes.h"
 #include "scene/model/vector_math.h"
 

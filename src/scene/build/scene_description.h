@@ -3,9 +3,9 @@
 
 #include "scene/build/built_shape.h"
 #include "scene/build/camera.h"
-#include "scene/build/emission.h"
 #include "scene/build/geometry.h"
-#include "scene/build/light_source.h"
+#include "scene/build/lights/emission.h"
+#include "scene/build/lights/light_source.h"
 #include "scene/build/limits.h"
 #include "scene/build/textures/texture_plan.h"
 #include "scene/input/named_files.h"

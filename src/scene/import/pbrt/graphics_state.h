@@ -1,7 +1,7 @@
 #pragma once
 /// The graphics state of a scene file and its stack.
 
-#include "scene/build/emission.h"
+#include "scene/build/lights/emission.h"
 #include "scene/import/pbrt/materials.h"
 #include "scene/import/pbrt/shape_directive.h"
 #include "scene/model/transform.h"

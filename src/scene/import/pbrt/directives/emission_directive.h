@@ -1,7 +1,7 @@
 #pragma once
 /// AreaLightSource directives.
 
-#include "scene/build/emission.h"
+#include "scene/build/lights/emission.h"
 #include "scene/build/textures/emission_images.h"
 #include "scene/import/pbrt/syntax/parameters.h"
 

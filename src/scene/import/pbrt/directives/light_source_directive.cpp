@@ -1,6 +1,6 @@
 #include "scene/import/pbrt/directives/light_source_directive.h"
 
-#include "scene/build/emission.h"
+#include "scene/build/lights/emission.h"
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"
 

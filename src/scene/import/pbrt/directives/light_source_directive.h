@@ -1,7 +1,7 @@
 #pragma once
 /// LightSource directives.
 
-#include "scene/build/light_source.h"
+#include "scene/build/lights/light_source.h"
 #include "scene/import/pbrt/textures.h"
 
 #include <filesystem>

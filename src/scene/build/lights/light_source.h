@@ -2,7 +2,7 @@
 /// Lights that are no shapes, as importers describe them.
 
 #include "scene/build/built_shape.h"
-#include "scene/build/environment.h"
+#include "scene/build/lights/environment.h"
 #include "scene/model/transform.h"
 
 #include <optional>

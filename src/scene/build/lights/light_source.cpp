@@ -1,6 +1,6 @@
-#include "scene/build/light_source.h"
+#include "scene/build/lights/light_source.h"
 
-#include "scene/build/emission.h"
+#include "scene/build/lights/emission.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"
 #include "scene/model/vector_math.h"

@@ -1,4 +1,4 @@
-#include "scene/build/textured_light.h"
+#include "scene/build/lights/textured_light.h"
 
 #include "scene/build/textures/emission_images.h"
 #include "scene/colour/colour_space.h"

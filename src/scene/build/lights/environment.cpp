@@ -1,4 +1,4 @@
-#include "scene/build/environment.h"
+#include "scene/build/lights/environment.h"
 
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"

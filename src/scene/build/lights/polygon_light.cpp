@@ -1,7 +1,7 @@
-#include "scene/build/polygon_light.h"
+#include "scene/build/lights/polygon_light.h"
 
+#include "scene/build/lights/textured_light.h"
 #include "scene/build/polygons/polygon_merge.h"
-#include "scene/build/textured_light.h"
 #include "scene/model/vector_math.h"
 
 #include <utility>

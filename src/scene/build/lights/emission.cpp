@@ -1,4 +1,4 @@
-#include "scene/build/emission.h"
+#include "scene/build/lights/emission.h"
 
 #include "scene/build/textures/emission_images.h"
 #include "scene/colour/colour_space.h"

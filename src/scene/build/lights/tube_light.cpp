@@ -1,4 +1,4 @@
-#include "scene/build/tube_light.h"
+#include "scene/build/lights/tube_light.h"
 
 #include "scene/model/vector_math.h"
 

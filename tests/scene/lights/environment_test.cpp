@@ -1,0 +1,148 @@
+// Environments of scene files: which way images and skies lie, and how bright they are.
+
+#include "scene_fixture.h"
+
+#include "image/io.h"
+#include "scene/build/lights/environment.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace nusselt::scene {
+namespace {
+
+/// The texel of the square that shows a direction, by the formulas of Clarberg 2008.
+Float3 texel_towards(const EnvironmentMapTexels& map, const Double3& direction) {
+    const double r = std::sqrt(1 - std::fabs(direction.z));
+    const double b = r * 2 / std::numbers::pi * std::atan2(std::fabs(direction.y), std::fabs(direction.x));
+    const double x = direction.z < 0 ? 1 - b : r - b;
+    const double y = direction.z < 0 ? 1 - (r - b) : b;
+    const auto index = [&](double offset, double sign) {
+        const double at = (0.5 + 0.5 * std::copysign(offset, sign)) * map.size;
+        return static_cast<std::size_t>(std::min(at, map.size - 1.0));
+    };
+    return map.texels[index(y, direction.y) * static_cast<std::size_t>(map.size) + index(x, direction.x)];
+}
+
+class Environments : public SceneTest {
+protected:
+    /// An image from a function of column and row, with row 0 at the top.
+    template <class Colour>
+    void write_picture(const std::string& name, int width, int height, const Colour& colour) const {
+        image::Image image = image::make_image(width, height);
+        for (int j = 0; j < height; ++j) {
+            for (int i = 0; i < width; ++i) {
+                const Float3 c = colour(i, j);
+                float* const pixel = &image.pixels[3 * static_cast<std::size_t>(j * width + i)];
+                pixel[0] = c.x;
+                pixel[1] = c.y;
+                pixel[2] = c.z;
+            }
+        }
+        image::write_image(folder_ / name, image);
+    }
+
+    Scene light(const std::string& directive, const std::string& film = "") const {
+        return load(film + "Camera \"perspective\"\nWorldBegin\n" + directive + "\n" +
+                    std::string(kTriangle));
+    }
+};
+
+const EnvironmentLight& environment(const Scene& scene) { return scene.lights.of<EnvironmentLight>().at(0); }
+const EnvironmentMapTexels& map_of(const Scene& scene) {
+    return *scene.environment_maps.at(static_cast<std::size_t>(environment(scene).map));
+}
+
+TEST_F(Environments, WithoutAnImageTheyAreUniform) {
+    const Scene scene = light("LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2");
+    EXPECT_EQ(environment(scene).map, -1);
+    expect_near(environment(scene).radiance, {2, 4, 6}, 1e-6f);
+    EXPECT_EQ(scene.emitters[0].name, "environment at scene.pbrt:3");
+    const Scene lit = light("LightSource \"infinite\" \"float illuminance\" 10");
+    EXPECT_NEAR(environment(lit).radiance.y, 10 / std::numbers::pi, 1e-5);
+}
+
+/// Bright towards +x, +y and +z of the light.
+TEST_F(Environments, LatitudesHaveZAtTheUpperBorder) {
+    write_picture("sky.pfm", 64, 32, [](int i, int j) {
+        const float is_upper = j < 4 ? 1.0f : 0.0f;
+        const bool is_middle = j >= 12 && j < 20;
+        return Float3{is_middle && (i < 4 || i >= 60) ? 1.0f : 0.0f,
+                      is_middle && i >= 12 && i < 20 ? 1.0f : 0.0f, is_upper};
+    });
+    for (const std::string film : {"Film \"image\"\n", ""}) {
+        const std::string parameter = film.empty() ? "filename" : "mapname";
+        const Scene scene = light("LightSource \"infinite\" \"string " + parameter + "\" \"sky.pfm\"", film);
+        EXPECT_TRUE(scene.warnings.empty());
+        expect_near(texel_towards(map_of(scene), {1, 0, 0}), {1, 0, 0}, 1e-6f);
+        expect_near(texel_towards(map_of(scene), {0, 1, 0}), {0, 1, 0}, 1e-6f);
+        expect_near(texel_towards(map_of(scene), {0, 0, 1}), {0, 0, 1}, 1e-6f);
+        expect_near(texel_towards(map_of(scene), {-1, 0, 0}), {0, 0, 0}, 1e-6f);
+        expect_near(texel_towards(map_of(scene), {0, 0, -1}), {0, 0, 0}, 1e-6f);
+        // The cap has the solid angle 2 pi (1 - cos(22.5 degrees)).
+        EXPECT_NEAR(environment(scene).radiance.z, 0.5 * (1 - std::cos(std::numbers::pi / 8)), 1e-3);
+    }
+}
+
+TEST_F(Environments, SquareImagesKeepTheirTexels) {
+    write_picture("map.pfm", 32, 32, [](int i, int j) {
+        return Float3{static_cast<float>(i), static_cast<float>(j), 1};
+    });
+    const Scene scene = light("LightSource \"infinite\" \"string filename\" \"map.pfm\"");
+    EXPECT_EQ(map_of(scene).size, 32);
+    for (const std::size_t index : {std::size_t{0}, std::size_t{31}, std::size_t{32 * 31 + 5}})
+        expect_near(map_of(scene).texels[index],
+                    {static_cast<float>(index % 32), static_cast<float>(index / 32), 1}, 0);
+    expect_near(environment(scene).radiance, {15.5f, 15.5f, 1}, 1e-5f);
+}
+
+TEST_F(Environments, TransformsTurnTheMap) {
+    const Scene scene = light("Rotate 90 1 0 0\nLightSource \"infinite\" \"rgb L\" [1 1 1]");
+    expect_near(environment(scene).z_axis, {0, -1, 0}, 1e-6f);
+    expect_near(environment(scene).y_axis, {0, 0, 1}, 1e-6f);
+    EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nScale 0 1 1\nLightSource \"infinite\""),
+              "scene.pbrt:4: LightSource \"infinite\": the transform is singular or not finite");
+}
+
+TEST_F(Environments, SkiesHaveTheirSunAndTheirGround) {
+    const Scene scene = light("LightSource \"sky\" \"vector3 sun\" [0.6 0 0.8] \"rgb ground\" [0.5 0 0]");
+    const EnvironmentMapTexels& map = map_of(scene);
+    EXPECT_GT(texel_towards(map, {0.6, 0, 0.8}).y, 1e5f);
+    const Float3 zenith = texel_towards(map, {0, 0, 1});
+    EXPECT_GT(zenith.z, zenith.x);
+    EXPECT_LT(zenith.z, 200);
+    const Float3 ground = texel_towards(map, {0, 0.6, -0.8});
+    EXPECT_EQ(ground.y, 0);
+    // What the ground reflects is its albedo over pi times what it receives.
+    EXPECT_NEAR(ground.x, 0.5 / std::numbers::pi * irradiance_of(map).x, 1e-4 * ground.x);
+    EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nLightSource \"sky\" \"float turbidity\" 1"),
+              "scene.pbrt:3: LightSource \"sky\": turbidity must be from 2 to 10, found 1");
+    EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nLightSource \"sky\" \"vector3 sun\" [0 0 0]"),
+              "scene.pbrt:3: LightSource \"sky\": the direction to the sun must not be zero");
+    EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nLightSource \"sky\" \"rgb ground\" [2 0 0]"),
+              "scene.pbrt:3: LightSource \"sky\": the albedo of the ground must be from 0 to 1, found 2");
+}
+
+TEST_F(Environments, HostileImages) {
+    EXPECT_EQ(
+        error(
+            "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\" \"string filename\" \"none.exr\""),
+        "scene.pbrt:3: texture file 'none.exr': no such file");
+    write_picture("black.pfm", 2, 2, [](int, int) { return Float3{0, 0, 0}; });
+    const Scene black = light("LightSource \"infinite\" \"string filename\" \"black.pfm\"");
+    EXPECT_TRUE(black.lights.of<EnvironmentLight>().empty());
+    EXPECT_EQ(warning(black), "scene.pbrt:3: environment: left out because its image is black");
+    write_picture("odd.pfm", 5, 3, [](int, int) { return Float3{1, 2, 3}; });
+    const Scene odd = light("LightSource \"infinite\" \"string filename\" \"odd.pfm\"");
+    expect_near(environment(odd).radiance, {1, 2, 3}, 1e-5f);
+    EXPECT_EQ(warning(odd),
+              "scene.pbrt:3: environment: the image 'odd.pfm' is neither square nor twice as wide as high; "
+              "it is taken for one in latitudes and longitudes");
+    const Scene portal = light("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]");
+    EXPECT_EQ(warning(portal),
+              "scene.pbrt:3: LightSource \"infinite\": the portal is not used; the light is the same where "
+              "the scene encloses it");
+}
+
+} // namespace
+} // namespace nusselt::scene
