@@ -217,8 +217,8 @@ foreach(name IN LISTS nusselt_techniques)
     if(NOT ${row}_is_related)
         string(APPEND rows "    {\"${name}\", \"${light}\", \"${${row}_density}\", \"${${row}_source}\", \"${${row}_header}\", \"${${row}_renders}\"},\n")
     endif()
-    # No light of the proofs comes with a BRDF or with a texture.
-    if(NOT light MATCHES "_on_brdf$|^textured")
+    # No light of the proofs comes with a BRDF or with radiance.
+    if(NOT light MATCHES "_on_brdf$|^textured|^environment")
         nusselt_describe_technique(${name})
         string(APPEND kinds "${text}\n")
         if(${row}_is_related AND light STREQUAL polygon)

@@ -22,6 +22,7 @@
 #include <nusselt/random/light_random.h>
 
 // All techniques, by scripts/check-techniques.py.
+#include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/textured_polygon.h>
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_ltc.h>

@@ -1,6 +1,7 @@
 # Parity of GLSL and C++ on a device: `nusselt-lab parity` and the tests run these comparisons. A library of its own, because
 # it takes long to compile and nothing else of the laboratory needs it.
 add_library(nusselt_lab_parity STATIC
+    parity/environment_parity.cpp
     parity/groups/estimate_groups.cpp
     parity/groups/function_groups.cpp
     parity/groups/ltc_groups.cpp
@@ -49,7 +50,7 @@ set(bounds_of_polygon_on_lobe 4 8)
 set(bounds_of_rectangle 4)
 set(bounds_of_textured_polygon 8)
 set(bounds_of_textured_polygon_on_lobe 8)
-foreach(light line line_on_lobe cylinder cylinder_on_lobe)
+foreach(light line line_on_lobe cylinder cylinder_on_lobe environment environment_on_lobe)
     set(bounds_of_${light} 2)
 endforeach()
 foreach(name IN LISTS nusselt_techniques)

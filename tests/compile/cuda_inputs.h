@@ -97,3 +97,25 @@ template <class Technique>
 __device__ void use_textured_polygon_on_lobe(const Inputs& inputs, float* result) {
     use_texture<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
 }
+
+/// A map that the kernel prepares, too: renderers do that once.
+template <class Technique, class... Lobe>
+__device__ void use_map(const Inputs& inputs, float* result, const Lobe&... lobe) {
+    const int i = thread_index();
+    float storage[1024];
+    const auto map =
+        nusselt::make_environment_map<16>(nusselt::OctahedralMap<float>{inputs.corners, 32}, storage);
+    const Technique technique(map, nusselt::Frame<float>::from_normal(inputs.normals[i]), {lobe...});
+    const auto sample = technique.sample(inputs.u[i]);
+    result[i] = technique.pdf(sample.wi) - sample.pdf + technique.invert(sample.wi).x +
+                technique.pdf_at(sample.at) + technique.measure() + technique.unshadowed().x +
+                map.radiance.lookup(sample.at).y;
+}
+template <class Technique>
+__device__ void use_environment(const Inputs& inputs, float* result) {
+    use_map<Technique>(inputs, result);
+}
+template <class Technique>
+__device__ void use_environment_on_lobe(const Inputs& inputs, float* result) {
+    use_map<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
+}

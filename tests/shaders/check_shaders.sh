@@ -31,7 +31,8 @@ for file in $files; do
     bounds=(4)
     if grep NUSSELT_MAX_VERTICES "$flat" | grep -qvxF "$defaults"; then bounds=(3 4 7); fi
     # What programs have to define.
-    program=$(sed -n 's/^\(uint textured_light_word(uint at)\);$/\1 { return at; }/p' "$flat")
+    program=$(sed -n -e 's/^\(uint [a-z_]*_word(uint at)\);$/\1 { return at; }/p' \
+        -e 's/^\(vec3 environment_map_texel(uint map, ivec2 at)\);$/\1 { return vec3(vec2(at), float(map)); }/p' "$flat")
     for vertices in "${bounds[@]}"; do
         for fused in 0 1; do
             options=("#define NUSSELT_MAX_VERTICES $vertices" "#define NUSSELT_FUSED_FMA $fused")

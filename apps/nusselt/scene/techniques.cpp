@@ -13,7 +13,7 @@ namespace nusselt::app {
 
 namespace {
 
-constexpr const char* kFormat = "{:<34}{:<11}{:<51}{:<54}{}\n";
+constexpr const char* kFormat = "{:<34}{:<13}{:<51}{:<54}{}\n";
 
 /// The kind of light as scenes name it.
 std::string light_of(const TechniqueRow& row) {

@@ -4,35 +4,14 @@
 /// How samples descend from a cell of the lattice to a texel: in proportion to what texels emit times the cosine over
 /// the squared distance. Twin of DescentByProduct in include/nusselt/emission/cell_descent.h.
 
+#include "../emission/texel_choice.glsl"
 #include "../emission/textured_light.glsl"
-
-/// Whether a sampler finds a texel, and how likely it was.
-struct TexelChoice {
-    ivec2 at;          ///< column and row in the finest grid
-    float probability; ///< given the cell; 0 if there is no texel to choose
-    vec2 u;            ///< random numbers that are left, in [0, 1)^2
-};
 
 /// The integrand of projected solid angles over a texture, up to a factor: zero below the horizon.
 float relative_cosine(TexturePlane plane, float x, float y) {
     vec3 p = nusselt_fma(x, plane.side_x, nusselt_fma(y, plane.side_y, plane.corner));
     float squared = nusselt_max(dot(p, p), kNusseltTiny);
     return (nusselt_max(p.z, 0.0) / squared) / squared;
-}
-
-/// Whether the second of two weights is chosen, and what is left of u.
-bool choose_of_two(float first, float second, inout float u) {
-    float target = u * (first + second);
-    bool chosen = second > 0.0 && target >= first;
-    float rest = target - (chosen ? first : 0.0);
-    u = below_one(rest / (chosen ? second : nusselt_max(first, kNusseltSmallestNormal)));
-    return chosen;
-}
-
-/// What choose_of_two() undoes.
-float unite_of_two(float first, float second, bool chosen, float u) {
-    float total = first + second;
-    return total > 0.0 ? below_one((chosen ? first + u * second : u * first) / total) : 0.0;
 }
 
 /// The weights of the parts of element (i, j) of a grid, in the order (0, 0), (1, 0), (0, 1), (1, 1). Those that do not
@@ -77,13 +56,7 @@ TexelChoice choose_texel(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
     for (int level = shape.levels - 1; level > 0; --level) {
         ivec2 parts = pyramid_parts_of(shape, level);
         vec4 weight = lit_parts(light, shape, plane, level, choice.at, parts);
-        vec2 columns = weight.xy + weight.zw;
-        bool right = choose_of_two(columns.x, columns.y, choice.u.x);
-        vec2 column = right ? weight.yw : weight.xz;
-        bool upper = choose_of_two(column.x, column.y, choice.u.y);
-        float total = columns.x + columns.y;
-        choice.probability = total > 0.0 ? choice.probability * (upper ? column.y : column.x) / total : 0.0;
-        choice.at = parts * choice.at + ivec2(right ? 1 : 0, upper ? 1 : 0);
+        descend_to_part(choice, weight, parts);
     }
     return choice;
 }
@@ -98,13 +71,7 @@ TexelChoice ascend_from_texel(uint light, TexturePlane plane, TexelChoice choice
         ivec2 part = choice.at & (parts - 1);
         choice.at = choice.at >> (parts - 1);
         vec4 weight = lit_parts(light, shape, plane, level, choice.at, parts);
-        vec2 columns = weight.xy + weight.zw;
-        vec2 column = part.x == 1 ? weight.yw : weight.xz;
-        choice.u.x = unite_of_two(columns.x, columns.y, part.x == 1, choice.u.x);
-        choice.u.y = unite_of_two(column.x, column.y, part.y == 1, choice.u.y);
-        float total = columns.x + columns.y;
-        choice.probability =
-            total > 0.0 ? choice.probability * (part.y == 1 ? column.y : column.x) / total : 0.0;
+        ascend_from_part(choice, part, weight);
     }
     return choice;
 }

@@ -8,17 +8,11 @@
 #include "../core/light_sample.glsl"
 #include "../emission/cell_descent.glsl"
 #include "../emission/cell_lattice.glsl"
+#include "../emission/cell_sums.glsl"
 #include "../emission/texture_plane.glsl"
 #include "../emission/textured_light.glsl"
+#include "../emission/textured_sample.glsl"
 #include "../geometry/polygon_measures.glsl"
-
-/// A sample on a light with a texture.
-struct TexturedSample {
-    vec3 wi;   ///< unit direction from the shading point to the light
-    float pdf; ///< density of wi; positive and finite, or exactly 0: no sample, the rest is then meaningless
-    vec3 p;    ///< the point on the light [m], relative to the shading point
-    vec2 at;   ///< texture coordinates of p: look up the radiance there
-};
 
 /// A light with a texture as seen from a shading point.
 struct TexturedView {
@@ -34,9 +28,8 @@ struct TexturedView {
 
 struct TexturedCells {
     TexturedView view;
-    float sum[kNusseltCells * kNusseltCells]; ///< of weights of a column, up to each row
-    float total;                              ///< 0 without light
-    vec3 unshadowed;                          ///< sum of mean radiance times projected solid angle
+    CellSums sums;   ///< without light, their total is 0
+    vec3 unshadowed; ///< sum of mean radiance times projected solid angle
 };
 
 /// A light whose plane is also its image.
@@ -66,113 +59,30 @@ TexturedCells textured_cells_prepare(TexturedView view, CellLattice lattice) {
     TexturedCells self;
     self.view = view;
     self.unshadowed = vec3(0.0);
-    cell_lattice_find_angles(lattice, self.sum);
+    cell_lattice_find_angles(lattice, self.sums.sum);
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) {
-        float angle = self.sum[cell];
-        float before = cell >= kNusseltCells ? self.sum[cell - kNusseltCells] : 0.0;
-        self.sum[cell] = before + textured_light_weight(view.light, cell) * angle;
+        float angle = self.sums.sum[cell];
+        cell_sums_add(self.sums, cell, textured_light_weight(view.light, cell) * angle);
         self.unshadowed = nusselt_fma(angle, textured_light_mean(view.light, cell), self.unshadowed);
     }
-    self.total = 0.0;
-    for (int column = 0; column < kNusseltCells; ++column)
-        self.total = self.total + self.sum[kNusseltCells * (kNusseltCells - 1) + column];
-    bool lit = self.total > 0.0 && is_finite(self.total) && view.image_area > 0.0 && view.distance > 0.0;
-    if (!lit) self.total = 0.0;
+    cell_sums_finish(self.sums);
+    if (!(view.image_area > 0.0 && view.distance > 0.0)) self.sums.total = 0.0;
     return self;
 }
 
 /// See TexturedPolygon::unshadowed() of C++.
 vec3 textured_cells_unshadowed(TexturedCells self) {
-    return self.total > 0.0 ? (1.0 / kNusseltPi) * self.unshadowed : vec3(0.0);
+    return self.sums.total > 0.0 ? (1.0 / kNusseltPi) * self.unshadowed : vec3(0.0);
 }
 
-TexturedSample no_textured_sample() {
-    vec3 up = vec3(0.0, 0.0, 1.0);
-    return TexturedSample(up, 0.0, up, vec2(0.0));
-}
-
-/// One step of running sums.
-struct SumStep {
-    float before, after, total;
-};
-
-float sum_step_probability(SumStep self) {
-    return self.total > 0.0 ? (self.after - self.before) / self.total : 0.0;
-}
-/// What is left of the random number behind a target.
-float sum_step_rest(SumStep self, float target) {
-    return below_one((target - self.before) / nusselt_max(self.after - self.before, kNusseltSmallestNormal));
-}
-/// What sum_step_rest() undoes.
-float sum_step_united(SumStep self, float u) {
-    return self.total > 0.0 ? below_one((self.before + u * (self.after - self.before)) / self.total) : 0.0;
-}
-
-struct TexturedCell {
-    ivec2 at;          ///< column and row
-    float probability;
-    vec2 u;            ///< random numbers that are left
-    SumStep x, y;      ///< of columns and of cells of the column
-};
-
-int textured_cell_index(TexturedCell self) { return self.at.y * kNusseltCells + self.at.x; }
-TextureRectangle textured_cell_rectangle(TexturedCell self) {
+TextureRectangle textured_cell_rectangle(CellChoice self) {
     return TextureRectangle(vec2(lattice_position(self.at.x), lattice_position(self.at.y)),
                             vec2(lattice_position(self.at.x + 1), lattice_position(self.at.y + 1)));
 }
 
-/// Sums over columns up to a column: they are added up again, in the order in which prepare() did.
-SumStep textured_cells_column_step(TexturedCells self, int column) {
-    SumStep result = SumStep(0.0, 0.0, self.total);
-    for (int i = 0; i <= column; ++i) {
-        result.before = result.after;
-        result.after = result.after + self.sum[kNusseltCells * (kNusseltCells - 1) + i];
-    }
-    return result;
-}
-SumStep textured_cells_cell_step(TexturedCells self, int column, int row) {
-    return SumStep(row > 0 ? self.sum[(row - 1) * kNusseltCells + column] : 0.0, self.sum[row * kNusseltCells + column],
-                   self.sum[(kNusseltCells - 1) * kNusseltCells + column]);
-}
-
-TexturedCell textured_cells_choose(TexturedCells self, vec2 u) {
-    const float below = 0.999999940395355224609375;
-    vec2 target;
-    target.x = nusselt_min(u.x, below) * self.total;
-    TexturedCell cell;
-    cell.x = SumStep(0.0, 0.0, self.total);
-    cell.at = ivec2(0);
-    // The first running sum above the target, which is below the last one.
-    for (int i = 0; i < kNusseltCells; ++i) {
-        cell.at.x = i;
-        cell.x.before = cell.x.after;
-        cell.x.after = cell.x.after + self.sum[kNusseltCells * (kNusseltCells - 1) + i];
-        if (cell.x.after > target.x) break;
-    }
-    target.y = nusselt_min(u.y, below) * self.sum[kNusseltCells * (kNusseltCells - 1) + cell.at.x];
-    for (int k = kNusseltCells / 2; k > 0; k /= 2)
-        cell.at.y += self.sum[(cell.at.y + k - 1) * kNusseltCells + cell.at.x] <= target.y ? k : 0;
-    cell.y = textured_cells_cell_step(self, cell.at.x, cell.at.y);
-    cell.probability = sum_step_probability(cell.x) * sum_step_probability(cell.y);
-    cell.u = vec2(sum_step_rest(cell.x, target.x), sum_step_rest(cell.y, target.y));
-    return cell;
-}
-
-/// The cell of a point.
-/// \param at texture coordinates.
-TexturedCell textured_cells_at(TexturedCells self, vec2 at) {
-    TexturedCell cell;
-    cell.at = clamp(ivec2(at * float(kNusseltCells)), ivec2(0), ivec2(kNusseltCells - 1));
-    cell.x = textured_cells_column_step(self, cell.at.x);
-    cell.y = textured_cells_cell_step(self, cell.at.x, cell.at.y);
-    cell.probability = sum_step_probability(cell.x) * sum_step_probability(cell.y);
-    cell.u = vec2(0.0);
-    return cell;
-}
-
 /// Whether the texture varies less in a cell than the cosine, in terms of squared coefficients of variation.
-bool textured_view_is_smooth(TexturedView self, TexturedCell cell) {
-    float variation = textured_light_variation(self.light, textured_cell_index(cell));
+bool textured_view_is_smooth(TexturedView self, CellChoice cell) {
+    float variation = textured_light_variation(self.light, cell_choice_index(cell));
     TextureRectangle r = textured_cell_rectangle(cell);
     vec2 middle = 0.5 * (r.low + r.high);
     vec3 centre = texture_plane_point_at(self.image, middle);
@@ -192,7 +102,7 @@ bool textured_view_is_smooth(TexturedView self, TexturedCell cell) {
 
 /// Where samples of a cell are: anywhere in a smooth cell, in one texel of a busy one.
 struct TexturedSpot {
-    TexturedCell cell;
+    CellChoice cell;
     bool is_smooth;
     TexelChoice texel;          ///< busy cells only
     TextureRectangle rectangle; ///< the cell or the texel
@@ -201,7 +111,7 @@ struct TexturedSpot {
 };
 
 /// \param texel any, if the cell is smooth.
-TexturedSpot textured_view_spot(TexturedView self, TexturedCell cell, bool is_smooth, TexelChoice texel) {
+TexturedSpot textured_view_spot(TexturedView self, CellChoice cell, bool is_smooth, TexelChoice texel) {
     TexturedSpot spot;
     spot.cell = cell;
     spot.is_smooth = is_smooth;
@@ -211,7 +121,7 @@ TexturedSpot textured_view_spot(TexturedView self, TexturedCell cell, bool is_sm
         vec2 size = 1.0 / vec2(pyramid_size_of(textured_light_shape(self.light), 0));
         spot.rectangle = TextureRectangle(vec2(texel.at) * size, vec2(texel.at + 1) * size);
     }
-    spot.is_whole = textured_light_cover(self.light, textured_cell_index(cell)) == 1.0 ||
+    spot.is_whole = textured_light_cover(self.light, cell_choice_index(cell)) == 1.0 ||
                     textured_light_contains(self.light, spot.rectangle);
     spot.part = texture_part_of(spot.rectangle);
     if (!spot.is_whole) spot.part = textured_light_part_in(self.light, spot.rectangle);
@@ -220,7 +130,7 @@ TexturedSpot textured_view_spot(TexturedView self, TexturedCell cell, bool is_sm
 
 /// The spot that random numbers choose, with the random numbers that are left.
 TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
-    TexturedCell cell = textured_cells_choose(self, u);
+    CellChoice cell = cell_sums_choose(self.sums, u);
     bool is_smooth = textured_view_is_smooth(self.view, cell);
     TexelChoice texel = TexelChoice(ivec2(0), 0.0, vec2(0.0));
     if (!is_smooth) texel = choose_texel(self.view.light, self.view.image, cell.at, cell.u);
@@ -230,7 +140,7 @@ TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
 /// The spot where a point is.
 /// \param at texture coordinates.
 TexturedSpot textured_cells_spot_at(TexturedCells self, vec2 at) {
-    TexturedCell cell = textured_cells_at(self, at);
+    CellChoice cell = cell_sums_at(self.sums, at);
     ivec2 size = pyramid_size_of(textured_light_shape(self.view.light), 0);
     ivec2 texel = clamp(ivec2(at * vec2(size)), ivec2(0), size - 1);
     return textured_view_spot(self.view, cell, textured_view_is_smooth(self.view, cell),
@@ -294,11 +204,6 @@ vec2 textured_view_busy_invert(TexturedView self, TexturedSpot spot, vec2 at) {
     texel.u = vec2(below_one(inside.x), below_one(inside.y));
     if (!spot.is_whole) texel.u = texture_part_invert(spot.part, at);
     return ascend_from_texel(self.light, self.image, texel).u;
-}
-
-/// The random numbers for a cell and those that are left in it.
-vec2 textured_cell_united(TexturedCell cell, vec2 u) {
-    return vec2(sum_step_united(cell.x, u.x), sum_step_united(cell.y, u.y));
 }
 
 /// Texture coordinates of the point in a direction.

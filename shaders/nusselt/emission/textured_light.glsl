@@ -14,14 +14,12 @@
 ///
 /// A light is known by the number of its first word.
 
+#include "../emission/cell_sums.glsl"
 #include "../emission/texture_plane.glsl"
 #include "../geometry/convex_polygon.glsl"
 
 /// Word number `at` of all lights.
 uint textured_light_word(uint at);
-
-/// Columns and rows of the lattice.
-const int kNusseltCells = 8;
 
 // Where the parts of a light begin: those of TexturedLightWords in C++.
 const uint kNusseltWidthLog2 = 0u;

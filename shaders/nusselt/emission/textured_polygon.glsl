@@ -26,7 +26,7 @@ TexturedPolygon textured_polygon_prepare(TexturePlane plane, uint light) {
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].
-float textured_polygon_measure(TexturedPolygon self) { return self.cells.total; }
+float textured_polygon_measure(TexturedPolygon self) { return self.cells.sums.total; }
 
 /// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
 /// for multiple importance sampling. Exact where the texture is constant in each cell.
@@ -40,7 +40,7 @@ PolygonProjectedSolidAngle textured_polygon_technique(TexturedView view, Texture
 /// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in
 ///          part.
 TexturedSample textured_polygon_sample(TexturedPolygon self, vec2 u) {
-    if (!(self.cells.total > 0.0)) return no_textured_sample();
+    if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_of(self.cells, u);
     if (!spot.is_smooth) return textured_view_busy_sample(view, spot);
@@ -60,19 +60,19 @@ float textured_polygon_density(TexturedPolygon self, vec3 wi, vec2 at) {
 
 /// \param wi a unit direction towards the light.
 float textured_polygon_pdf(TexturedPolygon self, vec3 wi) {
-    if (!(self.cells.total > 0.0)) return 0.0;
+    if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_density(self, wi, textured_view_hit(self.cells.view, wi));
 }
 
 /// The density of the direction to the point with these texture coordinates [1/sr].
 float textured_polygon_pdf_at(TexturedPolygon self, vec2 at) {
-    if (!(self.cells.total > 0.0)) return 0.0;
+    if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_density(self, nusselt_normalize(texture_plane_point_at(self.cells.view.plane, at)), at);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
 vec2 textured_polygon_invert(TexturedPolygon self, vec3 wi) {
-    if (!(self.cells.total > 0.0)) return vec2(0.0);
+    if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);
     TexturedSpot spot = textured_cells_spot_at(self.cells, at);
@@ -82,7 +82,7 @@ vec2 textured_polygon_invert(TexturedPolygon self, vec3 wi) {
     } else {
         u = textured_view_busy_invert(view, spot, at);
     }
-    return textured_cell_united(spot.cell, u);
+    return cell_choice_united(spot.cell, u);
 }
 
 #endif

@@ -32,7 +32,7 @@ TexturedPolygonLtc textured_polygon_ltc_prepare(TexturePlane plane, uint light, 
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe [W/(sr m^2)].
-float textured_polygon_ltc_measure(TexturedPolygonLtc self) { return (1.0 / kNusseltPi) * self.cells.total; }
+float textured_polygon_ltc_measure(TexturedPolygonLtc self) { return (1.0 / kNusseltPi) * self.cells.sums.total; }
 
 /// See textured_polygon_unshadowed().
 vec3 textured_polygon_ltc_unshadowed(TexturedPolygonLtc self) { return textured_cells_unshadowed(self.cells); }
@@ -44,7 +44,7 @@ PolygonLtc textured_polygon_ltc_technique(TexturedPolygonLtc self, TexturedSpot 
 
 /// \param u in [0, 1)^2; see textured_polygon_sample().
 TexturedSample textured_polygon_ltc_sample(TexturedPolygonLtc self, vec2 u) {
-    if (!(self.cells.total > 0.0)) return no_textured_sample();
+    if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_of(self.cells, u);
     if (!spot.is_smooth) return textured_view_busy_sample(view, spot);
@@ -64,19 +64,19 @@ float textured_polygon_ltc_density(TexturedPolygonLtc self, vec3 wi, vec2 at) {
 
 /// \param wi a unit direction towards the light.
 float textured_polygon_ltc_pdf(TexturedPolygonLtc self, vec3 wi) {
-    if (!(self.cells.total > 0.0)) return 0.0;
+    if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_ltc_density(self, wi, textured_view_hit(self.cells.view, wi));
 }
 
 /// The density of the direction to the point with these texture coordinates [1/sr].
 float textured_polygon_ltc_pdf_at(TexturedPolygonLtc self, vec2 at) {
-    if (!(self.cells.total > 0.0)) return 0.0;
+    if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_ltc_density(self, nusselt_normalize(texture_plane_point_at(self.cells.view.plane, at)), at);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
 vec2 textured_polygon_ltc_invert(TexturedPolygonLtc self, vec3 wi) {
-    if (!(self.cells.total > 0.0)) return vec2(0.0);
+    if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);
     TexturedSpot spot = textured_cells_spot_at(self.cells, at);
@@ -86,7 +86,7 @@ vec2 textured_polygon_ltc_invert(TexturedPolygonLtc self, vec3 wi) {
     } else {
         u = textured_view_busy_invert(view, spot, at);
     }
-    return textured_cell_united(spot.cell, u);
+    return cell_choice_united(spot.cell, u);
 }
 
 #endif

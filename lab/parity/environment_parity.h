@@ -1,0 +1,21 @@
+#pragma once
+/// Parity of techniques for environment maps. They are made here: lights of the other techniques have no radiance.
+
+#include "gpu/device.h"
+#include "lab/parity/parity_check.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// The techniques of nusselt/emission/environment_sampling.h.
+enum class EnvironmentTechnique { cosine, on_lobe };
+
+/// Judges shaders of one technique on all classes of maps and surfaces, with about `count` surfaces in total.
+/// \return a verdict for each shader
+std::vector<Verdict> judge_environment(const gpu::Device& device, EnvironmentTechnique technique,
+                                       const std::vector<std::span<const std::uint32_t>>& shaders, int count);
+
+} // namespace nusselt::parity

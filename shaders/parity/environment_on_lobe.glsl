@@ -1,0 +1,15 @@
+// Inputs: an environment, two random numbers, and an LtcCoefficients<float> of C++.
+#include "parity/environment_input.glsl"
+#include "parity/lobe_input.glsl"
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    const uint begin = (kEnvironmentSize + kLobeSize) * i;
+
+    Technique technique =
+        technique_prepare(input_map(begin), input_frame(begin), input_lobe(begin + kEnvironmentSize));
+    const TexturedSample s = technique_sample(technique, input_random(begin));
+    write_environment(i, s, technique.cells, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+                      technique_measure(technique));
+}
