@@ -7,6 +7,7 @@
 #include <nusselt/geometry/convex_polygon.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace nusselt::render_vulkan {
 
@@ -36,6 +37,8 @@ bool write_polygons(const scene::LightList& list, LightRecords& records) {
     const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
+    if (std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.texture >= 0; }))
+        throw std::runtime_error("lights that emit an image are not supported on GPUs; use --backend cpu");
     const bool are_small = std::all_of(lights.begin(), lights.end(),
                                        [](const auto& light) { return light.vertices.size() <= 4; });
     records.polygon_slots = are_small ? 4 : 8;
