@@ -70,7 +70,7 @@ std::vector<int> shapes_of(const scene::Scene& scene) {
 TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     scene::Scene scene = render_test::make_floor(4);
     EXPECT_EQ(shapes_of(scene), std::vector<int>());
-    const scene::PolygonLight polygon{0, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {1, 2, 3}, true};
+    const scene::PolygonLight polygon{0, -1, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {1, 2, 3}, true};
     scene.lights.of<scene::PolygonLight>() = {polygon, polygon};
     EXPECT_EQ(shapes_of(scene), std::vector<int>{interface::kPolygonsConstant});
     const scene::LineLight line{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, scene::TubeModel::linear};
