@@ -315,7 +315,10 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
     const LightChanges& changes = entry.changes;
     if (changes.emission) {
         const auto& [quantity, value] = *changes.emission;
-        const auto has_another = [&](const LightList& list) { return list.quantity() != quantity; };
+        // clang 14 does not capture structured bindings.
+        const auto has_another = [&quantity = quantity](const LightList& list) {
+            return list.quantity() != quantity;
+        };
         if (const LightList* const list = find_part(light, has_another))
             fail(entry.where, std::string(quantity.name),
                  "light " + in_quotes(light.name) + " is " + with_article(list->noun()) + "; use " +
