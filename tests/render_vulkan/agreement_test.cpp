@@ -200,11 +200,6 @@ TEST_F(Agreement, OfEveryHeuristic_Strategy_AndSampler) {
     }
 }
 
-/// Whether GPUs have all of its lights.
-bool is_supported(const scene::Scene& scene) {
-    return scene.emission_textures.empty() && scene.lights.of<scene::EnvironmentLight>().empty();
-}
-
 TEST_F(Agreement, OfShippedScenes) {
     // Other tests compare all techniques, and drivers take long for each.
     const std::vector<render::RenderSettings> settings{lab::compared_settings().back()};

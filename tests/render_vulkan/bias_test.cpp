@@ -83,7 +83,7 @@ TEST_F(Bias, OfShippedScenes_ThereIsNone) {
         SCOPED_TRACE(entry.path().filename());
         scene::Scene scene = scene::load_scene(entry.path());
         render::resize_film(scene, kWidth, kHeight);
-        expect_none(compare(scene));
+        if (is_supported(scene)) expect_none(compare(scene));
     }
 }
 

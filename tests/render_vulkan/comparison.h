@@ -15,4 +15,9 @@ inline image::Image render_on_cpu(const scene::Scene& scene, const render::Rende
     return render_cpu::Renderer(scene, 2).render(settings, base::choose_isa()).image;
 }
 
+/// Whether the renderer for GPUs has all lights of a scene.
+inline bool is_supported(const scene::Scene& scene) {
+    return scene.emission_textures.empty() && scene.lights.of<scene::EnvironmentLight>().empty();
+}
+
 } // namespace nusselt::render_vulkan_test
