@@ -89,7 +89,7 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
              "Mystery \"x\"\n"
              "Sampler \"halton\" \"integer pixelsamples\" 4 Integrator \"path\" Accelerator \"bvh\"\n"
              "ColorSpace \"srgb\" Option \"string msereferenceimage\" \"x\"\n"
-             "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+             "LightSource \"laser\" \"rgb L\" [1 1 1]\n"
              "Shape \"cone\" \"float radius\" 2\n"
              "Shape \"cone\" \"float radius\" 3\n" +
              std::string(kTriangle) + "\"float fuzz\" 3 \"spline knots\" [1 2]\n");
@@ -98,7 +98,7 @@ TEST_F(Syntax, UnknownThingsAreWarnedOfOnceWithTheirLine) {
     EXPECT_EQ(without_folder(scene.warnings[1]),
               "scene.pbrt:7: unsupported shapes are skipped, starting here: 2 \"cone\"");
     EXPECT_EQ(without_folder(scene.warnings[2]),
-              "scene.pbrt:6: unsupported light sources are skipped, starting here: 1 \"infinite\"");
+              "scene.pbrt:6: unsupported light sources are skipped, starting here: 1 \"laser\"");
     EXPECT_EQ(without_folder(scene.warnings[3]),
               "scene.pbrt:10: shape \"trianglemesh\": parameter \"float fuzz\" is unknown and ignored");
     EXPECT_EQ(without_folder(scene.warnings[4]),

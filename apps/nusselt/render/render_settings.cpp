@@ -110,6 +110,7 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
             "What samples of lights with a texture are proportional to: product, radiance times cosine or "
             "lobe; measure, that of --technique alone")
         ->transform(to_one_of(names_of(render::kEmissionSamplings)))
+        ->default_str(std::string(name_of(render::RenderSettings().emission_sampling)))
         ->group(kSamplingGroup);
     command
         .add_option(

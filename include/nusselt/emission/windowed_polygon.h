@@ -169,7 +169,8 @@ private:
         const Vec2<T> to_low = low - foot;
         const Vec2<T> to_high = high - foot;
         const T reach = max(max(abs(to_low.x), abs(to_high.x)), max(abs(to_low.y), abs(to_high.y)));
-        if (!(distance_ * kLargestSlope<T> > reach)) return false;
+        constexpr T kLargest = kLargestSlope<T>;
+        if (!(distance_ * kLargest > reach)) return false;
 
         // Offsets in the plane are precise from the point next to the foot on.
         const T inverse = T(1) / distance_;
