@@ -15,16 +15,16 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// Slopes of directions next to the edge of a hemisphere, beyond which nothing is counted.
 template <class T>
-inline constexpr T kSteepest = power_of_two<T>(std::numeric_limits<T>::max_exponent / 4);
+inline constexpr T kLargestSlope = power_of_two<T>(std::numeric_limits<T>::max_exponent / 4);
 
 /// The directions (x, y, z) with slopes x / z and y / z in a rectangle, and z > 0.
 template <class T>
 struct RectifiedDomain {
-    Vec2<T> low, high; ///< slopes within kSteepest, low < high in both components
+    Vec2<T> low, high; ///< slopes within kLargestSlope, low < high in both components
 
     /// All directions with z > 0.
     NUSSELT_HD static constexpr RectifiedDomain hemisphere() noexcept {
-        return {{-kSteepest<T>, -kSteepest<T>}, {kSteepest<T>, kSteepest<T>}};
+        return {{-kLargestSlope<T>, -kLargestSlope<T>}, {kLargestSlope<T>, kLargestSlope<T>}};
     }
 };
 
@@ -86,7 +86,7 @@ NUSSELT_HD inline T rectified_solid_angle_below(const T& p, const T& q) noexcept
 }
 
 /// Solid angle per square radian of alpha and beta: (1 + p^2) (1 + q^2) / (1 + p^2 + q^2)^(3/2). Zero on edges of the
-/// hemisphere and infinite in its corners, where it is finite for slopes within kSteepest.
+/// hemisphere and infinite in its corners, where it is finite for slopes within kLargestSlope.
 template <class T>
 NUSSELT_HD inline T rectified_jacobian(const T& p, const T& q) noexcept {
     const T squared = T(1) + p * p + q * q;

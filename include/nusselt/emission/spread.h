@@ -13,7 +13,7 @@ namespace detail {
 /// Slopes of holes that tables can represent.
 template <class T>
 NUSSELT_HD inline T hole_slope(const T& slope) noexcept {
-    return min(max(slope, T(1) / kSteepest<T>), kSteepest<T>);
+    return min(max(slope, T(1) / kLargestSlope<T>), kLargestSlope<T>);
 }
 
 } // namespace detail
@@ -21,7 +21,7 @@ NUSSELT_HD inline T hole_slope(const T& slope) noexcept {
 /// A honeycomb with rectangular holes: the share (1 - |x| / (s z)) (1 - |y| / (t z)) of a hole is visible in direction (x, y, z).
 template <class T>
 struct Honeycomb {
-    Vec2<T> slope; ///< width over depth of the holes, s and t; clamped to 1 / kSteepest and kSteepest
+    Vec2<T> slope; ///< width over depth of the holes, s and t; clamped to 1 / kLargestSlope and kLargestSlope
 
     /// The share of radiance that passes in a unit direction of the frame of the light, whose z axis is its normal.
     NUSSELT_HD T share(const Vec3<T>& direction) const noexcept {
@@ -57,7 +57,7 @@ struct Honeycomb {
 /// The same share in all azimuths, 1 - tan(angle from the normal) / t: what Cycles calls spread.
 template <class T>
 struct RadialSpread {
-    T slope; ///< t, from which on nothing passes; clamped to 1 / kSteepest and kSteepest
+    T slope; ///< t, from which on nothing passes; clamped to 1 / kLargestSlope and kLargestSlope
 
     /// \copydoc Honeycomb::share
     NUSSELT_HD T share(const Vec3<T>& direction) const noexcept {

@@ -30,7 +30,7 @@ struct WindowSample : LightSample<Real> {
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: shading space; the shading point is the origin, the normal +z. For a lobe, wo is in the xz half-plane.
 /// Edge cases: nothing of the light above the horizon or in the lobe, black window, no area, point beyond or in the plane of
-/// the light, or nearer to it than its extent over kSteepest: pdf = 0, measure 0. Black texels are never chosen. Samples in
+/// the light, or nearer to it than its extent over kLargestSlope: pdf = 0, measure 0. Black texels are never chosen. Samples in
 /// texels that the horizon or the outline cuts may have pdf = 0: densities then integrate to the share of the others.
 template <class T, int n = 8, class Measure = ProjectedCells<T>>
 class WindowedPolygon {
@@ -169,7 +169,7 @@ private:
         const Vec2<T> to_low = low - foot;
         const Vec2<T> to_high = high - foot;
         const T reach = max(max(abs(to_low.x), abs(to_high.x)), max(abs(to_low.y), abs(to_high.y)));
-        if (!(distance_ * kSteepest < T >> reach)) return false;
+        if (!(distance_ * kLargestSlope<T> > reach)) return false;
 
         // Offsets in the plane are precise from the point next to the foot on.
         const T inverse = T(1) / distance_;
@@ -224,7 +224,7 @@ private:
         const auto slope_at = [&](int i) {
             const T angle = angle_low + static_cast<T>(i) * texel_size;
             const SinCos<T> turn = sincos_quarter_turn(min(abs(angle), T(kPi<T> / 2)));
-            return copysign(turn.sin / max(turn.cos, T(1) / kSteepest<T>), angle);
+            return copysign(turn.sin / max(turn.cos, T(1) / kLargestSlope<T>), angle);
         };
         return box.cut(begin > texels.first ? max(slope_at(begin), from) : from,
                        end <= texels.last ? min(slope_at(end), to) : to);

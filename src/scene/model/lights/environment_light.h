@@ -2,6 +2,7 @@
 /// Light from all directions, infinitely far away: skies.
 
 #include "scene/model/lights/light_list.h"
+#include "scene/model/lights/polygon_light.h"
 
 #include <memory>
 #include <string>
@@ -28,6 +29,8 @@ struct EnvironmentLight {
     Float3 x_axis = {1, 0, 0};
     Float3 y_axis = {0, 1, 0};
     Float3 z_axis = {0, 0, 1};
+    /// A convex planar polygon through which all of the light comes, from either side; empty if there is none.
+    PolygonVertices portal = {};
 };
 
 template <>

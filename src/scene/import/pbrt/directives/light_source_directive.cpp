@@ -1,6 +1,7 @@
 #include "scene/import/pbrt/directives/light_source_directive.h"
 
 #include "scene/build/lights/emission.h"
+#include "scene/model/polygon.h"
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"
 
@@ -29,6 +30,7 @@ public:
     DistantLight distant();
     EnvironmentLight environment();
     EnvironmentLight sky();
+    PolygonVertices portal();
     SkyDescription sky_description();
 
     std::string subject() const { return "LightSource \"" + directive_.type + '"'; }
@@ -210,11 +212,18 @@ EnvironmentLight LightSourceReader::environment() {
     light.y_axis = axes.y;
     light.z_axis = axes.z;
     light.map = image(3, TextureWrap::repeat);
-    if (!parameters_.points("portal").empty())
-        warnings_.add(parameters_.location_of("portal"),
-                      subject() +
-                          ": the portal is not used; the light is the same where the scene encloses it");
+    light.portal = portal();
     return light;
+}
+
+/// As in pbrt, in world space.
+PolygonVertices LightSourceReader::portal() {
+    const std::vector<Float3> points = parameters_.points("portal");
+    if (points.empty()) return {};
+    std::vector<Double3> corners;
+    for (const Float3& p : points) corners.push_back(to_double(p));
+    if (const auto defect = find_polygon_defect(corners)) fail("portal", "portal: " + *defect);
+    return points;
 }
 
 EnvironmentLight LightSourceReader::sky() {
@@ -227,6 +236,7 @@ EnvironmentLight LightSourceReader::sky() {
     light.x_axis = axes.x;
     light.y_axis = axes.y;
     light.z_axis = axes.z;
+    light.portal = portal();
     return light;
 }
 
