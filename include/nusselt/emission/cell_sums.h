@@ -19,7 +19,7 @@ struct CellChoice {
 
 /// Running sums of the weights of cells.
 /// \tparam T float, double or long double.
-/// \tparam n columns and rows, 8 or 16. Cell (i, j) has the index j * n + i.
+/// \tparam n columns and rows: 4, or 8 and 16, which add() needs. Cell (i, j) has the index j * n + i.
 template <class T, int n>
 class CellSums {
     using Lanes = detail::CellLanes<T>;
@@ -32,6 +32,16 @@ public:
     NUSSELT_INLINE void add(int cell, const L& weight) noexcept {
         const L before = cell >= n ? Lanes::load(sum_ + cell - n) : L(T(0));
         Lanes::store(sum_ + cell, before + weight);
+    }
+
+    /// Sets all cells of a column, where packs of cells of a row are not at hand.
+    /// \param weight not negative.
+    NUSSELT_HD void set_column(int column, const T (&weight)[n]) noexcept {
+        T sum = T(0);
+        for (int row = 0; row < n; ++row) {
+            sum += weight[row];
+            sum_[row * n + column] = sum;
+        }
     }
 
     /// After the last cell.
@@ -56,7 +66,22 @@ public:
         const int column = first_above(column_sum_, 1, target_x);
         const T target_y = below_one(u.y) * sum_[(n - 1) * n + column];
         const int row = first_above(sum_ + column, n, target_y);
-        return make(column, row, {column_step(column).rest(target_x), cell_step(column, row).rest(target_y)});
+        CellChoice<T> choice = cell(column, row);
+        choice.u = {column_step(column).rest(target_x), cell_step(column, row).rest(target_y)};
+        return choice;
+    }
+
+    /// A cell by its place.
+    NUSSELT_HD CellChoice<T> cell(int column, int row) const noexcept {
+        return {column,
+                row,
+                column_step(column).probability() * cell_step(column, row).probability(),
+                {T(0), T(0)}};
+    }
+    /// The weight of a cell, up to rounding.
+    NUSSELT_HD T weight(int column, int row) const noexcept {
+        const Step step = cell_step(column, row);
+        return step.after - step.before;
     }
 
     /// The cell at a point of the lattice.
@@ -66,7 +91,7 @@ public:
             const int i = static_cast<int>(x * T(n));
             return i < 0 ? 0 : i < n ? i : n - 1;
         };
-        return make(index(at.x), index(at.y), {T(0), T(0)});
+        return cell(index(at.x), index(at.y));
     }
 
     /// What choose() undoes.
@@ -95,9 +120,6 @@ private:
     NUSSELT_HD Step cell_step(int column, int row) const noexcept {
         return {row > 0 ? sum_[(row - 1) * n + column] : T(0), sum_[row * n + column],
                 sum_[(n - 1) * n + column]};
-    }
-    NUSSELT_HD CellChoice<T> make(int column, int row, const Vec2<T>& u) const noexcept {
-        return {column, row, column_step(column).probability() * cell_step(column, row).probability(), u};
     }
 
     /// The first of n running sums above a target that is below the last one.

@@ -6,6 +6,7 @@
 /// proportion to mean radiance times closed-form projected solid angle. In a cell, samples are uniform in projected solid angle
 /// where the table is smoother than the cosine, and else go to single texels. docs/techniques/windowed_polygon.md derives it.
 
+#include <nusselt/emission/cell_sums.h>
 #include <nusselt/emission/textured_polygon.h>
 #include <nusselt/emission/window_cells.h>
 #include <nusselt/emission/windowed_light.h>
@@ -42,15 +43,16 @@ public:
     /// \param measure with the lobe, if there is one.
     NUSSELT_HD WindowedPolygon(const WindowPlane<T>& plane, const WindowedLight<T>& light,
                                const Measure& measure = {}) noexcept
-        : table_(&light.table), measure_(measure), frame_(plane.frame), distance_(T(0)), total_(T(0)) {
+        : table_(&light.table), measure_(measure), frame_(plane.frame), distance_(T(0)) {
+        sums_.clear();
         if (!(light.table.mean > T(0)) || !find_window(plane, light)) return;
         find_weights();
     }
 
     /// \param u in [0, 1)^2; x chooses along the x axis of the light, y along its y axis: stratification survives in part.
     NUSSELT_HD WindowSample<T> sample(const Vec2<T>& u) const noexcept {
-        if (!(total_ > T(0))) return none();
-        const Cell cell = choose_cell(u);
+        if (!(sums_.total() > T(0))) return none();
+        const Cell cell = sums_.choose(u);
         const TableWindow<T> window = window_of(cell);
         if (is_smooth(cell, window)) {
             return with_technique(cell, [&](const auto& technique) -> WindowSample<T> {
@@ -72,7 +74,7 @@ public:
 
     /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
     NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
-        if (!(total_ > T(0))) return T(0);
+        if (!(sums_.total() > T(0))) return T(0);
         const Hit where = hit(wi);
         if (!where.is_inside) return T(0);
         const Vec2<T> at = where.offset;
@@ -88,7 +90,7 @@ public:
 
     /// The random numbers for which sample() returns wi, a unit direction with a density.
     NUSSELT_HD Vec2<T> invert(const Vec3<T>& wi) const noexcept {
-        if (!(total_ > T(0))) return {T(0), T(0)};
+        if (!(sums_.total() > T(0))) return {T(0), T(0)};
         const Hit where = hit(wi);
         if (!where.is_inside) return {T(0), T(0)};
         const Vec2<T> at = where.offset;
@@ -99,50 +101,33 @@ public:
             u = with_technique(cell, [&](const auto& technique) { return technique.invert(wi); });
         else
             u = window.invert({columns_.position_at(at.x), rows_.position_at(at.y)});
-        return {column_step(cell.column).united(u.x), cell_step(cell.column, cell.row).united(u.y)};
+        return sums_.unite(cell.column, cell.row, u);
     }
 
     /// The sum over cells of mean radiance, averaged over channels, times projected solid angle, or times the integral of
     /// the lobe [W/m^2, W/(sr m^2)].
-    NUSSELT_HD T measure() const noexcept { return Measure::kUnit * (table_->mean * total_); }
+    NUSSELT_HD T measure() const noexcept { return Measure::kUnit * (table_->mean * sums_.total()); }
 
     /// The radiance that is reflected without shadows per albedo of the component, per channel [W/(sr m^2)]: the coefficient
     /// of heuristics for multiple importance sampling (estimate/mis.h). Colours come from whole texels.
     NUSSELT_HD Vec3<T> unshadowed() const noexcept {
         Vec3<T> sum{T(0), T(0), T(0)};
-        if (!(total_ > T(0))) return sum;
+        if (!(sums_.total() > T(0))) return sum;
         for (int column = 0; column < n; ++column) {
             for (int row = 0; row < n; ++row) {
-                const Step step = cell_step(column, row);
-                if (step.after > step.before) sum += (step.after - step.before) * hue_of(column, row);
+                const T weight = sums_.weight(column, row);
+                if (weight > T(0)) sum += weight * hue_of(column, row);
             }
         }
         return (table_->mean / kPi<T>)*sum;
     }
 
 private:
-    struct Cell {
-        int column, row;
-        T probability;
-        Vec2<T> u; ///< random numbers that are left
-    };
+    using Cell = CellChoice<T>;
 
     struct Hit {
         Vec2<T> offset;
         bool is_inside;
-    };
-
-    /// One step of running sums.
-    struct Step {
-        T before, after, total;
-
-        NUSSELT_HD T probability() const noexcept { return total > T(0) ? (after - before) / total : T(0); }
-        NUSSELT_HD T rest(const T& target) const noexcept {
-            return below_one((target - before) / max(after - before, std::numeric_limits<T>::min()));
-        }
-        NUSSELT_HD T united(const T& u) const noexcept {
-            return total > T(0) ? below_one((before + u * (after - before)) / total) : T(0);
-        }
     };
 
     NUSSELT_HD static WindowSample<T> none() noexcept {
@@ -246,25 +231,23 @@ private:
                                  rows_.share_before[j]);
         };
         find_line(0, line[0]);
-        T total = T(0);
         for (int i = 0; i < n; ++i) {
             const Below(&left)[n + 1] = line[i % 2];
             const Below(&right)[n + 1] = line[(i + 1) % 2];
             find_line(i + 1, line[(i + 1) % 2]);
-            T column = T(0);
+            T weights[n];
             for (int j = 0; j < n; ++j) {
                 const auto weight =
                     (right[j + 1].weight - left[j + 1].weight) - (right[j].weight - left[j].weight);
                 const auto solid_angle = (right[j + 1].solid_angle - left[j + 1].solid_angle) -
                                          (right[j].solid_angle - left[j].solid_angle);
-                column += angle[index_of(i, j)] * mean_of({i, j, T(0), {T(0), T(0)}}, static_cast<T>(weight),
-                                                          static_cast<T>(solid_angle));
-                sum_[i * n + j] = column;
+                weights[j] =
+                    angle[index_of(i, j)] *
+                    mean_of({i, j, T(0), {T(0), T(0)}}, static_cast<T>(weight), static_cast<T>(solid_angle));
             }
-            total += column;
-            column_sum_[i] = total;
+            sums_.set_column(i, weights);
         }
-        total_ = total > T(0) && is_finite(total) ? total : T(0);
+        sums_.finish();
     }
 
     /// The mean radiance of a cell over that of the table.
@@ -326,33 +309,8 @@ private:
         return {max(min(at.x, high.x), low.x), max(min(at.y, high.y), low.y)};
     }
 
-    NUSSELT_HD Step column_step(int column) const noexcept {
-        return {column > 0 ? column_sum_[column - 1] : T(0), column_sum_[column], total_};
-    }
-    NUSSELT_HD Step cell_step(int column, int row) const noexcept {
-        const T* sums = sum_ + column * n;
-        return {row > 0 ? sums[row - 1] : T(0), sums[row], sums[n - 1]};
-    }
-    /// The first of n running sums above a target that is below the last one.
-    NUSSELT_HD static int first_above(const T* sums, const T& target) noexcept {
-        int found = 0;
-        for (int step = n / 2; step > 0; step /= 2) found += sums[found + step - 1] <= target ? step : 0;
-        return found;
-    }
-    NUSSELT_HD Cell make_cell(int column, int row, const Vec2<T>& u) const noexcept {
-        return {column, row, column_step(column).probability() * cell_step(column, row).probability(), u};
-    }
-    NUSSELT_HD Cell choose_cell(const Vec2<T>& u) const noexcept {
-        constexpr T kBelowOne = 1 - std::numeric_limits<T>::epsilon() / 2;
-        const T target_x = min(u.x, kBelowOne) * total_;
-        const int column = first_above(column_sum_, target_x);
-        const T target_y = min(u.y, kBelowOne) * sum_[column * n + n - 1];
-        const int row = first_above(sum_ + column * n, target_y);
-        return make_cell(column, row,
-                         {column_step(column).rest(target_x), cell_step(column, row).rest(target_y)});
-    }
     NUSSELT_HD Cell cell_at(const Vec2<T>& at) const noexcept {
-        return make_cell(columns_.cell_at(at.x), rows_.cell_at(at.y), {T(0), T(0)});
+        return sums_.cell(columns_.cell_at(at.x), rows_.cell_at(at.y));
     }
 
     /// Offsets of the point in a direction.
@@ -461,9 +419,7 @@ private:
     TextureOutline<T> outline_;
     WindowLines<T, n> columns_, rows_;
     std::uint64_t whole_; ///< a bit for each cell: the outline does not cut it
-    T sum_[n * n];        ///< of weights of a column, up to each row
-    T column_sum_[n];     ///< of columns
-    T total_;             ///< 0 without light
+    CellSums<T, n> sums_; ///< of mean radiance over that of the table, times angle
 };
 
 /// For glossy surfaces.
