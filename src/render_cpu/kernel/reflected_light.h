@@ -107,9 +107,6 @@ public:
         add_for(light, light.lit, scale * light.emission, {sum.all.sum, sum.diffuse.sum});
     }
 
-    /// The number after that of the last sample of add().
-    std::uint32_t sample_end() const noexcept { return (camera_ray_ + 1) * samples_per_light_; }
-
     /// Adds reflected radiance that is known without samples.
     /// \param reflected for an emission of 1
     template <class Shape>

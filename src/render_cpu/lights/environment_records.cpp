@@ -2,6 +2,7 @@
 
 #include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
+#include "scene/model/vector_math.h"
 
 #include <nusselt/emission/environment_map.h>
 
@@ -13,25 +14,19 @@ namespace nusselt::render_cpu {
 
 namespace {
 
+using Map = EnvironmentMap<float, kEnvironmentCells>;
+
 /// A map with the radiance of its light.
 struct PreparedMap {
     PreparedMap(const scene::EnvironmentMapTexels& map, const scene::Float3& radiance)
-        : texels(map.texels.size()),
-          storage(
-              static_cast<std::size_t>(EnvironmentMap<float, kEnvironmentCells>::storage_size(map.size))) {
-        const auto ratio = [](float x, float mean) { return mean > 0 ? x / mean : 0; };
-        const Vec3<float> scale{ratio(radiance.x, map.mean.x), ratio(radiance.y, map.mean.y),
-                                ratio(radiance.z, map.mean.z)};
-        for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = scale * scene::to_vec(map.texels[i]);
-        light = make_environment_map<kEnvironmentCells>(OctahedralMap<float>{texels.data(), map.size},
-                                                        storage.data());
-    }
+        : texels(scene::scaled(map.texels, scene::per_channel_ratio(radiance, map.mean))),
+          storage(static_cast<std::size_t>(Map::storage_size(map.size))),
+          light(make_environment_map<kEnvironmentCells>(OctahedralMap<float>{texels.data(), map.size},
+                                                        storage.data())) {}
 
     std::vector<Vec3<float>> texels;
     std::vector<float> storage;
-    EnvironmentMap<float, kEnvironmentCells> light{
-        {}, PyramidShape(kEnvironmentCells, kEnvironmentCells, kEnvironmentCells), {}, {}, {}, {}, {}, {},
-        {}};
+    Map light;
 };
 
 struct Environments {

@@ -1,6 +1,7 @@
 #include "render_cpu/lights/polygon_textures.h"
 
 #include "scene/model/library_vector.h"
+#include "scene/model/vector_math.h"
 
 #include <nusselt/emission/texture_plane.h>
 #include <nusselt/emission/textured_light.h>
@@ -10,27 +11,12 @@
 
 namespace nusselt::render_cpu {
 
-namespace {
-
-float inverse_or_zero(float x) { return x > 0 ? 1 / x : 0; }
-
-} // namespace
-
 struct PolygonTextures::Prepared {
     Prepared(const scene::EmissionTexture& texture, const scene::Float3& scale,
              std::span<const scene::Float2> at)
-        : texels(scaled(texture, scale)),
+        : texels(scene::scaled(texture.texels, scale)),
           storage(static_cast<std::size_t>(PyramidShape(kTextureCells, texture.width, texture.height).size)),
           light(make_light(texture, at)) {}
-
-    static std::vector<Vec3<float>> scaled(const scene::EmissionTexture& texture,
-                                           const scene::Float3& scale) {
-        std::vector<Vec3<float>> result;
-        result.reserve(texture.texels.size());
-        for (const scene::Float3& texel : texture.texels)
-            result.push_back(scene::to_vec(scale) * scene::to_vec(texel));
-        return result;
-    }
 
     TexturedLight<float, kTextureCells> make_light(const scene::EmissionTexture& texture,
                                                    std::span<const scene::Float2> at) {
@@ -68,8 +54,7 @@ std::int32_t PolygonTextures::add(const scene::Scene& scene, const scene::Polygo
     record.radiance = reinterpret_cast<const scene::Float3*>(prepared.texels.data());
     record.width = emission.texture->width;
     record.height = emission.texture->height;
-    record.inverse_mean = {inverse_or_zero(light.radiance.x), inverse_or_zero(light.radiance.y),
-                           inverse_or_zero(light.radiance.z)};
+    record.inverse_mean = scene::per_channel_ratio({1, 1, 1}, light.radiance);
     record.cells = &prepared.light;
     return static_cast<std::int32_t>(records_.size() - 1);
 }

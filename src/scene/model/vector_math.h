@@ -30,8 +30,14 @@ inline Double3 normalized(const Double3& v) {
     return l > 0 ? (1 / l) * v : v;
 }
 
-/// Of two colours, per channel.
-inline Float3 product(const Float3& a, const Float3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+inline Float3 per_channel_product(const Float3& a, const Float3& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+/// 0 where the denominator is 0.
+inline Float3 per_channel_ratio(const Float3& a, const Float3& b) {
+    const auto ratio = [](float x, float y) { return y > 0 ? x / y : 0; };
+    return {ratio(a.x, b.x), ratio(a.y, b.y), ratio(a.z, b.z)};
+}
 
 inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 

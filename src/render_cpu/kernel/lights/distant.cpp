@@ -25,18 +25,6 @@ struct DistantLight {
     }
 };
 
-void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render_cpu::kMostShapes]) noexcept {
-    add[0] = one_direction<DistantLight>(job);
-}
-
-std::int32_t shape_of(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/) noexcept { return 0; }
-
-/// No ray meets it.
-scene::Float3 emission(const render_cpu::LightSet& /*lights*/, std::int32_t /*index*/,
-                       const scene::Float3& /*origin*/, const scene::Float3& /*direction*/) noexcept {
-    return {0, 0, 0};
-}
-
 } // namespace
 } // namespace kernel
 NUSSELT_NAMESPACE_END
@@ -44,7 +32,7 @@ NUSSELT_NAMESPACE_END
 namespace nusselt::render_cpu {
 
 LightCode distant_code(LaneCount<kernel::kLanes>) {
-    return {&kernel::choose, &kernel::shape_of, &kernel::emission};
+    return kernel::one_direction_code<kernel::DistantLight>();
 }
 
 } // namespace nusselt::render_cpu

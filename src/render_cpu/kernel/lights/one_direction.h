@@ -68,5 +68,21 @@ render_cpu::AddLight one_direction(const render_cpu::RenderJob& job) noexcept {
     return &add_from_one_direction<Light>;
 }
 
+/// The code of a kind of light. \tparam Light see one_direction()
+template <class Light>
+render_cpu::LightCode one_direction_code() noexcept {
+    const auto choose = [](const render_cpu::RenderJob& job,
+                           render_cpu::AddLight(&add)[render_cpu::kMostShapes]) noexcept {
+        add[0] = one_direction<Light>(job);
+    };
+    const auto shape_of = [](const render_cpu::LightSet&, std::int32_t) noexcept { return std::int32_t(0); };
+    // No ray meets it.
+    const auto emission = [](const render_cpu::LightSet&, std::int32_t, const scene::Float3&,
+                             const scene::Float3&) noexcept {
+        return scene::Float3{0, 0, 0};
+    };
+    return {choose, shape_of, emission};
+}
+
 } // namespace kernel
 NUSSELT_NAMESPACE_END

@@ -37,7 +37,7 @@ Emission without_texture(const Emission& emission) {
     result.texture = nullptr;
     if (emission.texture == nullptr) return result;
     const Float3 mean = mean_texel(*emission.texture);
-    result.radiance = product(emission.radiance, mean);
+    result.radiance = per_channel_product(emission.radiance, mean);
     if (const double brightness = luminance(to_double(mean)); emission.power && brightness > 0)
         result.power = *emission.power / brightness;
     return result;

@@ -133,8 +133,9 @@ bool finish(const LightSourceDescription& source, const std::vector<Texture>& te
             std::make_shared<EnvironmentMapTexels>(source.sky ? make_sky_map(*source.sky) : of_image());
         irradiance = irradiance_of(*map);
         for (const Float3& texel : map->texels)
-            check_emission(product(light.radiance, texel), kRadiance, subject_of(source), source.origin);
-        light.radiance = product(light.radiance, map->mean);
+            check_emission(per_channel_product(light.radiance, texel), kRadiance, subject_of(source),
+                           source.origin);
+        light.radiance = per_channel_product(light.radiance, map->mean);
         light.map = static_cast<std::int32_t>(shapes.environment_maps.size());
         shapes.environment_maps.push_back(std::move(map));
     }

@@ -90,16 +90,9 @@ EmissionTexture crop(const EmissionTexture& image, const TexelRange& columns, co
     return result;
 }
 
-std::vector<Vec3<float>> texels_of(const EmissionTexture& texture) {
-    std::vector<Vec3<float>> texels;
-    texels.reserve(texture.texels.size());
-    for (const Float3& texel : texture.texels) texels.push_back(to_vec(texel));
-    return texels;
-}
-
 /// The mean over a light. \param outline in texture coordinates
 Float3 mean_over(const EmissionTexture& texture, std::span<const Vec2<float>> outline) {
-    const std::vector<Vec3<float>> texels = texels_of(texture);
+    const std::vector<Vec3<float>> texels = scaled(texture.texels, {1, 1, 1});
     const TextureView<float> view{texels.data(), texture.width, texture.height};
     constexpr int kCells = 8;
     const PyramidShape shape(kCells, texture.width, texture.height);
@@ -153,7 +146,7 @@ public:
 
     /// Adds the lights to the shape. \param radiance of a texel of 1
     void finish(const Float3& radiance) {
-        for (PolygonLight& light : lights_) light.radiance = product(radiance, light.radiance);
+        for (PolygonLight& light : lights_) light.radiance = per_channel_product(radiance, light.radiance);
         built_.lights.of<PolygonLight>() = std::move(lights_);
         if (textured_ > kMaxTexturedPolygons)
             built_.warnings.add(shape_.origin, "many textured lights",
@@ -241,7 +234,7 @@ private:
 
     /// For lights on which the coordinates hardly change.
     static Float3 mean_of_corners(const EmissionTexture& texture, std::span<const Vec2<float>> outline) {
-        const std::vector<Vec3<float>> texels = texels_of(texture);
+        const std::vector<Vec3<float>> texels = scaled(texture.texels, {1, 1, 1});
         const TextureView<float> view{texels.data(), texture.width, texture.height};
         Vec3<float> sum{0, 0, 0};
         for (const Vec2<float>& at : outline) sum += BilinearFilter::lookup(view, at);
@@ -273,7 +266,7 @@ void add_textured_polygons(const ShapeDescription& shape, const FormatWords& wor
     polygons.add(std::move(partition));
     const Float3 radiance = radiance_of(shape.emission, polygons.bright_area(), words.emission, shape.origin);
     for (const Float3& texel : shape.emission.texture->texels)
-        check_radiance(product(radiance, texel), words.emission, shape.origin);
+        check_radiance(per_channel_product(radiance, texel), words.emission, shape.origin);
     polygons.finish(radiance);
 }
 

@@ -39,9 +39,7 @@ TexturePlacement place_texture(const PolygonLight& light, const TexturedEmission
 }
 
 Float3 texel_scale(const PolygonLight& light, const TexturedEmission& emission) {
-    const auto ratio = [](float radiance, float mean) { return mean > 0 ? radiance / mean : 0; };
-    return {ratio(light.radiance.x, emission.mean.x), ratio(light.radiance.y, emission.mean.y),
-            ratio(light.radiance.z, emission.mean.z)};
+    return per_channel_ratio(light.radiance, emission.mean);
 }
 
 } // namespace nusselt::scene

@@ -29,6 +29,8 @@ public:
     DistantLight distant();
     EnvironmentLight environment();
     EnvironmentLight sky();
+    /// A number above 0. In pbrt negative values, -1 by default, stand for none.
+    std::optional<double> positive(std::string_view name);
     SkyDescription sky_description();
 
     std::string subject() const { return "LightSource \"" + directive_.type + '"'; }
@@ -44,6 +46,7 @@ private:
     /// The direction from `from` to `to` in world space.
     Float3 direction(const Float3& from, const Float3& to) const;
     LightFrame frame() const;
+    EnvironmentLight environment_in_frame(const Float3& radiance);
     void warn_of_skew(const LightFrame& frame) const;
     /// The image as a request for a texture; -1 if there is none.
     int image(int channels, TextureWrap wrap);
@@ -191,9 +194,7 @@ PointLight LightSourceReader::projection() {
 DistantLight LightSourceReader::distant() {
     DistantLight light;
     light.irradiance = emission("L", kIrradiance);
-    const std::optional<double> illuminance = parameters_.optional_real("illuminance");
-    // In pbrt negative values, -1 by default, stand for none.
-    if (illuminance && *illuminance > 0)
+    if (const std::optional<double> illuminance = positive("illuminance"))
         light.irradiance = to_float(*illuminance * to_double(light.irradiance));
     check_emission(light.irradiance, kIrradiance, subject(), parameters_.location());
     const Float3 from = parameters_.point("from").value_or(Float3{0, 0, 0});
@@ -201,14 +202,19 @@ DistantLight LightSourceReader::distant() {
     return light;
 }
 
-EnvironmentLight LightSourceReader::environment() {
+EnvironmentLight LightSourceReader::environment_in_frame(const Float3& radiance) {
     EnvironmentLight light;
-    light.radiance = emission("L", kRadiance);
+    light.radiance = radiance;
     const LightFrame axes = frame();
     warn_of_skew(axes);
     light.x_axis = axes.x;
     light.y_axis = axes.y;
     light.z_axis = axes.z;
+    return light;
+}
+
+EnvironmentLight LightSourceReader::environment() {
+    EnvironmentLight light = environment_in_frame(emission("L", kRadiance));
     light.map = image(3, TextureWrap::repeat);
     if (!parameters_.points("portal").empty())
         warnings_.add(parameters_.location_of("portal"),
@@ -218,16 +224,10 @@ EnvironmentLight LightSourceReader::environment() {
 }
 
 EnvironmentLight LightSourceReader::sky() {
-    EnvironmentLight light;
     const auto scale = static_cast<float>(parameters_.real("scale", 1));
-    light.radiance = {scale, scale, scale};
-    check_emission(light.radiance, kRadiance, subject(), parameters_.location());
-    const LightFrame axes = frame();
-    warn_of_skew(axes);
-    light.x_axis = axes.x;
-    light.y_axis = axes.y;
-    light.z_axis = axes.z;
-    return light;
+    const Float3 radiance = {scale, scale, scale};
+    check_emission(radiance, kRadiance, subject(), parameters_.location());
+    return environment_in_frame(radiance);
 }
 
 SkyDescription LightSourceReader::sky_description() {
@@ -247,25 +247,42 @@ SkyDescription LightSourceReader::sky_description() {
     return sky;
 }
 
-using AnyLight = std::variant<PointLight, DistantLight, EnvironmentLight>;
+std::optional<double> LightSourceReader::positive(std::string_view name) {
+    const std::optional<double> value = parameters_.optional_real(name);
+    return value && *value > 0 ? value : std::nullopt;
+}
 
 struct LightSourceType {
     std::string_view type;
     std::string_view kind; ///< LightSourceDescription::kind
-    AnyLight (*read)(LightSourceReader& reader);
+    /// Sets the light and what belongs to it.
+    void (*read)(LightSourceReader& reader, LightSourceDescription& source);
 };
 
+template <PointLight (LightSourceReader::*read)()>
+void read_point_light(LightSourceReader& reader, LightSourceDescription& source) {
+    source.light = (reader.*read)();
+    source.power = reader.positive("power");
+}
+
 constexpr LightSourceType kTypes[] = {
-    {"point", "point light", [](LightSourceReader& reader) -> AnyLight { return reader.point(); }},
-    {"spot", "spot light", [](LightSourceReader& reader) -> AnyLight { return reader.spot(); }},
-    {"distant", "distant light", [](LightSourceReader& reader) -> AnyLight { return reader.distant(); }},
-    {"goniometric", "goniometric light",
-     [](LightSourceReader& reader) -> AnyLight { return reader.goniometric(); }},
-    {"projection", "projection light",
-     [](LightSourceReader& reader) -> AnyLight { return reader.projection(); }},
-    {"infinite", "environment", [](LightSourceReader& reader) -> AnyLight { return reader.environment(); }},
+    {"point", "point light", &read_point_light<&LightSourceReader::point>},
+    {"spot", "spot light", &read_point_light<&LightSourceReader::spot>},
+    {"goniometric", "goniometric light", &read_point_light<&LightSourceReader::goniometric>},
+    {"projection", "projection light", &read_point_light<&LightSourceReader::projection>},
+    {"distant", "distant light",
+     [](LightSourceReader& reader, LightSourceDescription& source) { source.light = reader.distant(); }},
+    {"infinite", "environment",
+     [](LightSourceReader& reader, LightSourceDescription& source) {
+         source.light = reader.environment();
+         source.irradiance = reader.positive("illuminance");
+     }},
     // An extension.
-    {"sky", "sky", [](LightSourceReader& reader) -> AnyLight { return reader.sky(); }},
+    {"sky", "sky",
+     [](LightSourceReader& reader, LightSourceDescription& source) {
+         source.light = reader.sky();
+         source.sky = reader.sky_description();
+     }},
 };
 
 const LightSourceType* find_type(std::string_view type) {
@@ -274,10 +291,12 @@ const LightSourceType* find_type(std::string_view type) {
     return found == std::end(kTypes) ? nullptr : found;
 }
 
-bool is_dark(const AnyLight& light) {
+bool is_dark(const LightSourceDescription& source) {
     return std::visit(
-        [](const auto& any) { return is_black(any.*LightKind<std::decay_t<decltype(any)>>::kEmission); },
-        light);
+        [](const auto& light) {
+            return is_black(light.*LightKind<std::decay_t<decltype(light)>>::kEmission);
+        },
+        source.light);
 }
 
 } // namespace
@@ -293,21 +312,12 @@ std::optional<LightSourceDescription> read_light_source(LightSourceDirective& di
     LightSourceReader reader(directive, textures, warnings);
     const LightSourceType& type = *find_type(directive.type);
     ParameterList& parameters = directive.parameters;
-    LightSourceDescription source{type.kind, parameters.location(), type.read(reader)};
-    if (std::holds_alternative<PointLight>(source.light)) {
-        const std::optional<double> power = parameters.optional_real("power");
-        if (power && *power > 0) source.power = power;
-    }
-    if (directive.type == "sky") {
-        source.sky = reader.sky_description();
-    } else if (std::holds_alternative<EnvironmentLight>(source.light)) {
-        const std::optional<double> illuminance = parameters.optional_real("illuminance");
-        if (illuminance && *illuminance > 0) source.irradiance = illuminance;
-    }
+    LightSourceDescription source{type.kind, parameters.location(), {}};
+    type.read(reader, source);
     // v3 took samples of lights of any kind.
     parameters.ignore({"samples", "nsamples"});
     parameters.warn_unused("LightSource", warnings);
-    if (!is_dark(source.light)) return source;
+    if (!is_dark(source)) return source;
     warnings.add(source.origin, reader.subject() + ": skipped because it does not emit light");
     return std::nullopt;
 }
