@@ -1,16 +1,8 @@
 #include "lab/parity/textured_parity.h"
 
 #include "lab/accuracy/lobe_lights.h"
-#include "lab/parity/parity.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/emission_parity.h"
 #include "lab/parity/textured_lights.h"
-
-#include <tbb/parallel_for.h>
-
-#include <bit>
-#include <cstring>
-#include <functional>
-#include <mutex>
 
 namespace nusselt::parity {
 
@@ -22,18 +14,6 @@ using proof::Exact;
 /// The projected solid angle of each cell has a rounding error of up to 1e-7. Of lights that are dimmer than this,
 /// nothing else may remain, as where a lobe hardly reaches them.
 constexpr Exact kSmallestWeight = 3e-5L;
-
-/// The layout in which shaders/parity/textured_input.glsl writes its results.
-struct TexturedOutputs {
-    Vec3<float> wi;
-    float pdf;
-    Vec2<float> at;
-    float off;        ///< distance of the point from the one with these texture coordinates
-    float unshadowed; ///< of the second channel
-    float pdf_of_wi;
-    Vec2<float> inverse;
-    float measure;
-};
 
 /// A light at a place in shading space.
 struct Scene {
@@ -162,92 +142,36 @@ Scene draw_scene(const TexturedTestLights& lights, const Class& of, int number) 
 }
 
 template <class Pair>
-std::vector<TexturedOutputs> run(ShaderRunner& runner, const std::vector<Scene>& scenes) {
+std::vector<EmissionOutputs> run(ShaderRunner& runner, const std::vector<Scene>& scenes) {
     std::vector<float> inputs;
     for (const Scene& scene : scenes) {
         for (const Vec3<float>& v :
              {scene.plane.corner, scene.plane.side_x, scene.plane.side_y, scene.plane.normal})
             inputs.insert(inputs.end(), {v.x, v.y, v.z});
         inputs.insert(inputs.end(), {static_cast<float>(scene.light->first_word()), scene.u.x, scene.u.y});
-        const auto& c = scene.lobe;
-        if (Pair::kHasLobe) inputs.insert(inputs.end(), {c.m00, c.m02, c.m11, c.m20, c.m22, c.albedo});
+        if (Pair::kHasLobe) append_lobe(scene.lobe, inputs);
     }
-    std::vector<TexturedOutputs> results;
-    for (const auto& written : runner.run(inputs)) results.push_back(std::bit_cast<TexturedOutputs>(written));
-    return results;
+    return run_emission(runner, inputs);
 }
 
-/// What C++ returns, in float or rounded to it.
+/// The way is the direction; the place is the distance of the point from the one with the texture coordinates.
 template <class Real, class Technique>
-TexturedOutputs outputs_of(const Technique& technique, const TexturePlane<Real>& plane,
-                           const Vec2<float>& u) {
+EmissionOutputs sample_in_cpp(const Technique& technique, const TexturePlane<Real>& plane,
+                              const Vec2<float>& u) {
     const auto s = technique.sample(broadcast<Real>(u));
-    const Vec3<float> wi = broadcast<float>(s.wi);
-    const Vec3<Real> rounded = std::is_same_v<Real, float> ? s.wi : normalize(broadcast<Real>(wi));
-    const auto single = [](const Real& x) { return static_cast<float>(x); };
-    const auto inverse = technique.invert(rounded);
-    return {wi,
-            single(s.pdf),
-            {below_one(single(s.at.x)), below_one(single(s.at.y))},
-            single(length(s.p - plane.point_at(s.at))),
-            single(technique.unshadowed().y),
-            single(technique.pdf(rounded)),
-            {below_one(single(inverse.x)), below_one(single(inverse.y))},
-            single(technique.measure())};
-}
-
-bool is_valid(const TexturedOutputs& out) {
-    for (const float x : {out.pdf, out.off, out.unshadowed, out.pdf_of_wi, out.measure})
-        if (!(is_finite(x) && x >= 0)) return false;
-    return hostile::all_finite(out.wi) && hostile::in_unit_interval(out.at) &&
-           hostile::in_unit_interval(out.inverse);
-}
-
-/// Judges the results of one method.
-template <class Technique>
-void judge(const Technique& exact, const TexturePlane<Exact>& plane, const Scene& scene,
-           const TexturedOutputs& out, Errors& errors) {
-    if (!is_valid(out)) {
-        ++errors.invalid;
-        return;
-    }
-    if (exact.measure() == 0) {
-        errors.spurious += out.pdf > 0 || out.measure > 0;
-        return;
-    }
-    errors.add(Quantity::measure, std::fabs(out.measure / exact.measure() - 1));
-    errors.add(Quantity::measure, std::fabs(out.unshadowed / exact.unshadowed().y - 1));
-    if (out.pdf == 0) {
-        ++errors.no_sample;
-        return;
-    }
-    const Vec2<Exact> at = broadcast<Exact>(out.at);
-    const Vec3<Exact> to_point = normalize(plane.point_at(at));
-    const Vec3<Exact> direction = broadcast<Exact>(out.wi);
-    const Vec3<Exact> wi = normalize(direction);
-    errors.add(Quantity::unit_length, std::fabs(length(direction) - 1));
-    errors.add(Quantity::aim, length(cross(wi, to_point)));
-    errors.add(Quantity::hit_point, out.off / std::max(length(plane.side_x), length(plane.side_y)));
-    // The texture coordinates of a sample tell its texel. Those of its rounded direction may lie in another one.
-    const Vec2<Exact> explained = exact.invert(to_point);
-    errors.add(Quantity::first_random, std::fabs(explained.x - scene.u.x));
-    errors.add(Quantity::second_random, std::fabs(explained.y - scene.u.y));
-    errors.add(Quantity::sample_density, std::fabs(out.pdf / exact.pdf_at(at) - 1));
-    errors.add(Quantity::density, std::fabs(out.pdf_of_wi / exact.pdf(wi) - 1));
-    const Vec2<Exact> inverse = exact.invert(wi);
-    errors.add(Quantity::first_inverse, std::fabs(out.inverse.x - inverse.x));
-    errors.add(Quantity::second_inverse, std::fabs(out.inverse.y - inverse.y));
+    return outputs_of(technique, s, s.wi, length(s.p - plane.point_at(s.at)));
 }
 
 /// Judges one light.
 template <class Pair>
-void judge_scene(const Class& of, const Scene& scene, const std::vector<TexturedOutputs>& device_outputs,
-                 std::vector<Errors>& device, Errors& cpp, Errors& floor) {
+void judge_scene(const Class& of, const Scene& scene, const std::vector<EmissionOutputs>& device_outputs,
+                 MethodErrors& errors) {
     const auto single = Pair::prepare(scene.plane, scene.light->in_float(), scene.lobe);
-    const TexturedOutputs of_cpp = outputs_of(single, scene.plane, scene.u);
+    const EmissionOutputs of_cpp = sample_in_cpp(single, scene.plane, scene.u);
     if (of.place == Place::hostile) {
         // Rounding decides what they are, but they keep the contract.
-        for (std::size_t k = 0; k < device.size(); ++k) device[k].invalid += !is_valid(device_outputs[k]);
+        for (std::size_t k = 0; k < device_outputs.size(); ++k)
+            errors.device[k].invalid += !is_valid(device_outputs[k]);
         return;
     }
     const auto plane =
@@ -255,73 +179,34 @@ void judge_scene(const Class& of, const Scene& scene, const std::vector<Textured
                            broadcast<Exact>(scene.plane.side_y));
     const auto exact = Pair::prepare(plane, scene.light->exact(), scene.lobe);
     if (exact.measure() > 0 && exact.measure() < kSmallestWeight) return;
-    for (std::size_t k = 0; k < device.size(); ++k) judge(exact, plane, scene, device_outputs[k], device[k]);
-    judge(exact, plane, scene, of_cpp, cpp);
-    if (exact.measure() > 0) judge(exact, plane, scene, outputs_of(exact, plane, scene.u), floor);
-}
-
-template <class Pair>
-std::vector<Verdict> judge_class(const Class& of, int count, const TexturedTestLights& lights,
-                                 std::deque<ShaderRunner>& runners) {
-    std::vector<Scene> scenes;
-    for (int i = 0; i < count; ++i) scenes.push_back(draw_scene(lights, of, i));
-    std::vector<std::vector<TexturedOutputs>> outputs;
-    for (ShaderRunner& runner : runners) outputs.push_back(run<Pair>(runner, scenes));
-
-    std::vector<Errors> device(runners.size());
-    Errors cpp, floor;
-    std::mutex mutex;
-    constexpr int kBlock = 256;
-    tbb::parallel_for(0, (count + kBlock - 1) / kBlock, [&](int block) {
-        std::vector<Errors> block_device(runners.size());
-        Errors block_cpp, block_floor;
-        for (int i = block * kBlock; i < std::min((block + 1) * kBlock, count); ++i) {
-            const auto number = static_cast<std::size_t>(i);
-            std::vector<TexturedOutputs> of_devices;
-            for (const auto& of_device : outputs) of_devices.push_back(of_device[number]);
-            judge_scene<Pair>(of, scenes[number], of_devices, block_device, block_cpp, block_floor);
-        }
-        const std::lock_guard lock(mutex);
-        for (std::size_t k = 0; k < device.size(); ++k) device[k].append(block_device[k]);
-        cpp.append(block_cpp);
-        floor.append(block_floor);
-    });
-    std::vector<Verdict> verdicts;
-    for (const Errors& errors : device) {
-        // A rounding decides about the way in which a cell is sampled, and about the texel that a direction meets.
-        verdicts.push_back(compare(errors, cpp, floor, Images::rounded));
-        verdicts.back().lights = count;
-    }
-    return verdicts;
+    const auto way_of = [&](const EmissionOutputs& out) -> ExactWay {
+        return {normalize(plane.point_at(broadcast<Exact>(out.at))), broadcast<Exact>(out.way),
+                out.place / std::max(length(plane.side_x), length(plane.side_y))};
+    };
+    for (std::size_t k = 0; k < device_outputs.size(); ++k)
+        judge_outputs(exact, scene.u, device_outputs[k], way_of, errors.device[k]);
+    judge_outputs(exact, scene.u, of_cpp, way_of, errors.cpp);
+    if (exact.measure() > 0)
+        judge_outputs(exact, scene.u, sample_in_cpp(exact, plane, scene.u), way_of, errors.floor);
 }
 
 template <class Pair>
 std::vector<Verdict> judge_pair(const gpu::Device& device,
                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
     const TexturedTestLights lights;
-    std::deque<ShaderRunner> runners;
-    for (const auto& shader : shaders)
-        runners.emplace_back(device, shader, Pair::kHasLobe ? 21 : 15, lights.words());
-    std::vector<Verdict> verdicts(shaders.size());
-    for (const Class& of : kClasses) {
-        const auto of_class =
-            judge_class<Pair>(of, count / static_cast<int>(std::size(kClasses)), lights, runners);
-        for (std::size_t k = 0; k < verdicts.size(); ++k) verdicts[k].add(of.name, of_class[k]);
-    }
-    return verdicts;
-}
-
-ParityCase case_of(TexturedTechnique technique, const char* name) {
-    return {"technique", name, [=](const gpu::Device& device, const ParityEffort& effort) {
-                const std::vector<Variant> variants = variants_for(device);
-                std::vector<std::span<const std::uint32_t>> shaders;
-                for (const Variant variant : variants) shaders.push_back(twin_shader(name, 8, variant));
-                const auto verdicts = judge_textured(device, technique, shaders, effort.lights / 3);
-                std::vector<VariantVerdict> results;
-                for (std::size_t k = 0; k < variants.size(); ++k)
-                    results.push_back({variants[k], verdicts[k]});
-                return results;
-            }};
+    const auto judge_class = [&](const Class& of, int of_class, std::deque<ShaderRunner>& runners) {
+        std::vector<Scene> scenes;
+        for (int i = 0; i < of_class; ++i) scenes.push_back(draw_scene(lights, of, i));
+        std::vector<std::vector<EmissionOutputs>> outputs;
+        for (ShaderRunner& runner : runners) outputs.push_back(run<Pair>(runner, scenes));
+        return judge_scenes(
+            of_class, outputs,
+            [&](std::size_t number, const std::vector<EmissionOutputs>& of_devices, MethodErrors& errors) {
+                judge_scene<Pair>(of, scenes[number], of_devices, errors);
+            });
+    };
+    return judge_classes(device, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
+                         judge_class);
 }
 
 } // namespace
@@ -333,8 +218,8 @@ std::vector<Verdict> judge_textured(const gpu::Device& device, TexturedTechnique
 }
 
 void add_textured_cases(std::vector<ParityCase>& cases) {
-    cases.push_back(case_of(TexturedTechnique::diffuse, Diffuse::kName));
-    cases.push_back(case_of(TexturedTechnique::on_lobe, OnLobe::kName));
+    cases.push_back(emission_case(Diffuse::kName, 8, judge_pair<Diffuse>));
+    cases.push_back(emission_case(OnLobe::kName, 8, judge_pair<OnLobe>));
 }
 
 } // namespace nusselt::parity
