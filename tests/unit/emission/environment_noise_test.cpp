@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "emission/environments.h"
+#include "emission/estimates.h"
 
 namespace nusselt_test {
 namespace {
@@ -20,30 +21,6 @@ using nusselt::Vec2;
 using Frames = std::vector<nusselt::Frame<double>>;
 
 constexpr int kSize = 256;
-
-/// The mean of estimates over their integral, and their squared relative deviation.
-struct Moments {
-    double mean = 0, squares = 0;
-    int surfaces = 0;
-
-    template <class Estimate>
-    void add(double expected, int samples, const Estimate& estimate) {
-        std::mt19937 random(static_cast<unsigned>(surfaces + 1));
-        std::uniform_real_distribution<float> uniform(0, 0.9999999f);
-        double sum = 0, sum_of_squares = 0;
-        for (int k = 0; k < samples; ++k) {
-            const float x = uniform(random);
-            const double ratio = estimate(Vec2<float>{x, uniform(random)}) / expected;
-            sum += ratio - 1;
-            sum_of_squares += (ratio - 1) * (ratio - 1);
-        }
-        mean += sum / samples;
-        squares += sum_of_squares / samples;
-        ++surfaces;
-    }
-    double noise() const { return std::sqrt(squares / surfaces); }
-    double bias() const { return mean / surfaces; }
-};
 
 template <class Technique, class Integrand>
 auto estimates(const Technique& technique, const nusselt::OctahedralMap<float>& map,

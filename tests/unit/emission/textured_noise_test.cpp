@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "emission/estimates.h"
 #include "emission/textured_lights.h"
 
 namespace nusselt_test {
@@ -43,30 +44,6 @@ std::vector<double> integrals(const View& view, const std::vector<NamedTexture>&
     for (double& sum : sums) sum /= kSize * kSize;
     return sums;
 }
-
-/// The mean of estimates over their integral, and their squared relative deviation.
-struct Moments {
-    double mean = 0, squares = 0;
-    int views = 0;
-
-    template <class Estimate>
-    void add_view(double integral, int samples, const Estimate& estimate) {
-        std::mt19937 random(static_cast<unsigned>(views + 1));
-        std::uniform_real_distribution<float> uniform(0, 0.9999999f);
-        double sum = 0, sum_of_squares = 0;
-        for (int k = 0; k < samples; ++k) {
-            const float x = uniform(random);
-            const double ratio = estimate(Vec2<float>{x, uniform(random)}) / integral;
-            sum += ratio - 1;
-            sum_of_squares += (ratio - 1) * (ratio - 1);
-        }
-        mean += sum / samples;
-        squares += sum_of_squares / samples;
-        ++views;
-    }
-    double noise() const { return std::sqrt(squares / views); }
-    double bias() const { return mean / views; }
-};
 
 template <int n>
 std::vector<StoredLight<float, n>> lights_for(const std::vector<NamedTexture>& textures) {
@@ -119,14 +96,14 @@ void measure(double distance, int samples, const std::map<std::string, Budgets>&
             const TexturedPolygon<float, 8> cells8(plane, lights8[k].light);
             const TexturedPolygon<float, 8, DescentByProduct> product(plane, lights8[k].light);
             Row& row = rows[k];
-            row.cells16.add_view(expected[k], samples, estimates(cells16, textures[k], cosine));
-            row.cells8.add_view(expected[k], samples, estimates(cells8, textures[k], cosine));
-            row.product.add_view(expected[k], samples, estimates(product, textures[k], cosine));
+            row.cells16.add(expected[k], samples, estimates(cells16, textures[k], cosine));
+            row.cells8.add(expected[k], samples, estimates(cells8, textures[k], cosine));
+            row.product.add(expected[k], samples, estimates(product, textures[k], cosine));
             // The technique that knows nothing of the texture.
             const PolygonProjectedSolidAngle<float, 4> psa(
                 nusselt::rectangle_in<float>(plane, {0, 0}, {1, 1}));
             const nusselt::TextureCoordinates<float> coordinates(plane);
-            row.psa.add_view(expected[k], samples, [&](const Vec2<float>& u) {
+            row.psa.add(expected[k], samples, [&](const Vec2<float>& u) {
                 const auto s = psa.sample(u);
                 return static_cast<double>(
                            NearestFilter::lookup(textures[k].texture.view(), coordinates(s.p)).x * s.wi.z) /
@@ -204,9 +181,8 @@ TEST(TexturedNoise, OfGlossySurfaces) {
         for (std::size_t k = 0; k < textures.size(); ++k) {
             const nusselt::TexturedPolygonLtc<float, 16> technique(converted<float>(plane), lights[k].light,
                                                                    {lobe});
-            rows[k].add_view(expected[k], kSamples, estimates(technique, textures[k], [&](const auto& wi) {
-                                 return lobe.density(wi);
-                             }));
+            rows[k].add(expected[k], kSamples,
+                        estimates(technique, textures[k], [&](const auto& wi) { return lobe.density(wi); }));
         }
     }
     const std::map<std::string, double> budgets = {
