@@ -1,5 +1,6 @@
 #include "lab/figures/image_comparison.h"
 
+#include "lab/emission/emission_comparisons.h"
 #include "lab/lines/line_comparisons.h"
 #include "lab/tubes/tube_comparisons.h"
 
@@ -300,6 +301,7 @@ const std::vector<ImageComparison>& all_image_comparisons() {
             far_light("far-light-1mm", "1 mm"),
             planes_image(),
             biased()};
+        for (ImageComparison& experiment : emission_comparisons()) all.push_back(std::move(experiment));
         for (ImageComparison& experiment : line_comparisons()) all.push_back(std::move(experiment));
         for (ImageComparison& experiment : tube_comparisons()) all.push_back(std::move(experiment));
         return all;
