@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
+#include <utility>
 
 namespace nusselt::render_cpu {
 
@@ -18,20 +18,33 @@ namespace {
 
 using scene::Double3;
 
-/// Rotations that differ by less have the same table. It gives probabilities only.
-constexpr double kSameRotation = 1e-5;
+/// Directions and shares that differ by less have the same table. It gives probabilities only.
+constexpr double kSameNumber = 1e-5;
 
 /// Rows and columns of tables. Those of a luminaire resolve 0.7 degrees, those of a spread cover no more than its directions.
 constexpr int kLuminaireTexels = 256;
 constexpr int kSpreadTexels = 128;
 constexpr int kLookups = 2;
 
-/// Where a table has to be: in a flat light along its axis, luminaires are dark beyond their last angle.
-RectifiedDomain<float> domain_of(const scene::ProfiledEmission& emission, int side) {
-    const scene::EmissionProfile& profile = *emission.profile;
-    double slope = scene::spread_slope(profile).value_or(kLargestSlope<float>);
-    const bool is_along_axis = emission.z_axis.z > 1 - 1e-6f && side == 0;
-    if (profile.luminaire != nullptr && is_along_axis) {
+/// The frame of a side within that of its profile: along the half-plane of 0 degrees if it can, so that the sides of rectangles
+/// and boxes are along its axes.
+struct SideFrame {
+    explicit SideFrame(const Double3& normal) : n(normal) {
+        const Double3 reference = std::fabs(n.x) < 0.9 ? Double3{1, 0, 0} : Double3{0, 1, 0};
+        t = normalized(reference - dot(reference, n) * n);
+        b = cross(n, t);
+    }
+    Double3 to_profile(const Vec3<float>& w) const {
+        return double{w.x} * t + double{w.y} * b + double{w.z} * n;
+    }
+
+    Double3 t, b, n;
+};
+
+/// Where a table has to be: around their axis, luminaires are dark beyond their last angle.
+RectifiedDomain<float> domain_of(const scene::EmissionProfile& profile, const Double3& normal) {
+    double slope = scene::spread_slope(profile).value_or(double{kLargestSlope<float>});
+    if (profile.luminaire != nullptr && normal.z > 1 - 1e-6) {
         const double last = profile.luminaire->profile.table().vertical.back();
         if (last < 1.5) slope = std::min(slope, 1.01 * std::tan(last));
     }
@@ -42,24 +55,19 @@ RectifiedDomain<float> domain_of(const scene::ProfiledEmission& emission, int si
 } // namespace
 
 struct PolygonProfiles::Table {
-    Table(const scene::ProfiledEmission& emission, int side)
+    Table(const scene::ProfiledEmission& emission, const Double3& normal)
         : texels(emission.profile->luminaire != nullptr ? kLuminaireTexels : kSpreadTexels),
           sums(static_cast<std::size_t>(RectifiedTable<float>::size(texels, texels))),
           colour(sums.size()) {
         const scene::EmissionProfile& profile = *emission.profile;
-        const Double3 x = to_double(emission.x_axis);
-        const Double3 z = to_double(emission.z_axis);
-        const Double3 y = cross(z, x);
-        const double turned = side == 0 ? 1 : -1;
+        const SideFrame frame(normal);
         const double factor = emission.mean > 0 ? 1 / double{emission.mean} : 0;
         const auto radiance = [&](const Vec3<float>& w) {
-            const Double3 in_polygon = {w.x, turned * w.y, turned * w.z};
-            const Double3 in_profile = {dot(x, in_polygon), dot(y, in_polygon), dot(z, in_polygon)};
-            const auto value = static_cast<float>(factor * passed_share(profile, w.z) *
-                                                  luminance_of_profile(profile, in_profile));
+            const auto value = static_cast<float>(factor * passed_share(profile, double{w.z}) *
+                                                  luminance_of_profile(profile, frame.to_profile(w)));
             return Vec3<float>{value, value, value};
         };
-        table = make_rectified_table(radiance, domain_of(emission, side), texels, texels, kLookups,
+        table = make_rectified_table(radiance, domain_of(profile, normal), texels, texels, kLookups,
                                      sums.data(), colour.data());
     }
 
@@ -76,13 +84,21 @@ struct PolygonProfiles::Side {
 PolygonProfiles::PolygonProfiles() = default;
 PolygonProfiles::~PolygonProfiles() = default;
 
-const PolygonProfiles::Table& PolygonProfiles::table_of(const scene::ProfiledEmission& emission, int side) {
-    std::array<long, 6> rotation{};
-    const float entries[] = {emission.x_axis.x, emission.x_axis.y, emission.x_axis.z,
-                             emission.z_axis.x, emission.z_axis.y, emission.z_axis.z};
-    for (std::size_t i = 0; i < rotation.size(); ++i) rotation[i] = std::lround(entries[i] / kSameRotation);
-    std::unique_ptr<Table>& table = tables_[{emission.profile.get(), rotation, side, emission.mean}];
-    if (table == nullptr) table = std::make_unique<Table>(emission, side);
+const PolygonProfiles::Table& PolygonProfiles::table_of(const scene::ProfiledEmission& emission,
+                                                        const Double3& normal) {
+    const scene::EmissionProfile& profile = *emission.profile;
+    std::vector<long> shape;
+    const auto add = [&](double number) { shape.push_back(std::lround(number / kSameNumber)); };
+    const auto add_direction = [&](const Double3& v) { add(v.x), add(v.y), add(v.z); };
+    if (profile.luminaire != nullptr) {
+        add_direction(normal);
+        for (const scene::LuminousFace& face : profile.faces) {
+            add_direction(face.normal);
+            add(face.area / profile.faces[0].area);
+        }
+    }
+    std::unique_ptr<Table>& table = tables_[{profile.luminaire.get(), profile.spread, std::move(shape)}];
+    if (table == nullptr) table = std::make_unique<Table>(emission, normal);
     return *table;
 }
 
@@ -112,17 +128,21 @@ std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polygo
         record.least_area = 1;
     }
 
-    const Double3 first = to_double(light.vertices[0]);
-    const Double3 t = normalized(to_double(light.vertices[1]) - first);
-    const Double3 b = cross(placement.normal, t);
     std::vector<Vec3<float>> corners;
     for (const scene::Float3& p : light.vertices) corners.push_back(scene::to_vec(p));
+    const auto to_profile = [&](const Double3& v) {
+        return Double3{dot(placement.x_axis, v), dot(placement.y_axis, v), dot(placement.z_axis, v)};
+    };
+    const auto to_world = [&](const Double3& v) {
+        return scene::to_vec(
+            to_float(v.x * placement.x_axis + v.y * placement.y_axis + v.z * placement.z_axis));
+    };
     for (int side = 0; side < (light.two_sided ? 2 : 1); ++side) {
-        const double turned = side == 0 ? 1 : -1;
-        const auto axis = [](const Double3& v) { return scene::to_vec(to_float(v)); };
-        const Frame<float> frame{axis(t), axis(turned * b), axis(turned * placement.normal)};
-        sides_.push_back(std::make_unique<Side>(Side{make_profiled_light(
-            frame, corners.data(), static_cast<int>(corners.size()), table_of(emission, side).table)}));
+        const Double3 normal = to_profile((side == 0 ? 1.0 : -1.0) * placement.normal);
+        const SideFrame frame(normal);
+        sides_.push_back(std::make_unique<Side>(Side{
+            make_profiled_light({to_world(frame.t), to_world(frame.b), to_world(frame.n)}, corners.data(),
+                                static_cast<int>(corners.size()), table_of(emission, normal).table)}));
         record.side[side] = &sides_.back()->light;
     }
     records_.push_back(record);

@@ -5,7 +5,6 @@
 #include "render_cpu/lights/polygon_records.h"
 #include "scene/model/scene.h"
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -29,10 +28,12 @@ public:
 private:
     struct Side;
     struct Table;
-    /// What the radiance of a side by direction in the frame of the polygon follows from: lights of one kind share tables.
-    using TableKey = std::tuple<const scene::EmissionProfile*, std::array<long, 6>, int, float>;
+    /// Luminaire, spread, and the rounded normal of the side, and those and the shares of the area of all faces: what a table
+    /// follows from. Scenes have thousands of luminaires of one kind.
+    using TableKey = std::tuple<const scene::Luminaire*, double, std::vector<long>>;
 
-    const Table& table_of(const scene::ProfiledEmission& emission, int side);
+    /// \param normal of the side, in the frame of the profile
+    const Table& table_of(const scene::ProfiledEmission& emission, const scene::Double3& normal);
 
     LuminaireTables luminaires_;
     std::vector<std::vector<LuminousFaceRecord>> faces_;

@@ -10,12 +10,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace nusselt::scene {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+
+/// The cosine between normals that count as one.
+constexpr double kSameNormal = 1 - 1e-6;
 
 /// Right-handed and orthonormal.
 struct Axes {
@@ -82,13 +86,35 @@ double spread_mean(const EmissionProfile& profile, const Axes& face_in_profile) 
     });
 }
 
+/// Means by the normals of a shape, in the frame of its profile: shapes may have a million polygons.
+class FaceMeans {
+public:
+    struct Means {
+        double spread, unspread;
+    };
+
+    explicit FaceMeans(const EmissionProfile& profile) : profile_(profile) {}
+
+    Means of(const Double3& normal) {
+        // Only profiles distinguish normals.
+        for (const auto& [known, means] : means_)
+            if (profile_.luminaire == nullptr || dot(known, normal) > kSameNormal) return means;
+        const Axes face = make_axes(std::fabs(normal.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0}, normal);
+        means_.emplace_back(normal, Means{spread_mean(profile_, face), unspread_mean(profile_, face)});
+        return means_.back().second;
+    }
+
+private:
+    const EmissionProfile& profile_;
+    std::vector<std::pair<Double3, Means>> means_;
+};
+
 /// The areas of the normals of a shape, in the frame of its profile.
 std::vector<LuminousFace> faces_of(std::span<const PolygonLight> lights, const Axes& frame) {
     std::vector<LuminousFace> faces;
     const auto add = [&](const Double3& normal, double face_area) {
-        constexpr double kSameCosine = 1 - 1e-6;
         const auto found = std::find_if(faces.begin(), faces.end(), [&](const LuminousFace& face) {
-            return dot(face.normal, normal) > kSameCosine;
+            return dot(face.normal, normal) > kSameNormal;
         });
         if (found != faces.end())
             found->area += face_area;
@@ -151,24 +177,23 @@ std::optional<ProfiledShape> profile_shape(std::span<const PolygonLight> lights,
     }
 
     ProfiledShape shape;
+    FaceMeans means(profile);
     double flux = 0;
     for (const PolygonLight& light : lights) {
         const Axes polygon = axes_of(light);
-        const auto mean_over_sides = [&](const auto& mean) {
-            const Axes face = {frame.to_local(polygon.x), frame.to_local(polygon.y),
-                               frame.to_local(polygon.z)};
-            if (!light.two_sided) return mean(profile, face);
-            const Axes back = {face.x, -1.0 * face.y, -1.0 * face.z};
-            return 0.5 * (mean(profile, face) + mean(profile, back));
-        };
+        const Double3 normal = frame.to_local(polygon.z);
+        FaceMeans::Means mean = means.of(normal);
+        if (light.two_sided) {
+            const FaceMeans::Means back = means.of(-1.0 * normal);
+            mean = {0.5 * (mean.spread + back.spread), 0.5 * (mean.unspread + back.unspread)};
+        }
         ProfiledEmission& emission = shape.emissions.emplace_back();
         emission.x_axis = to_float(polygon.to_local(frame.x));
         emission.z_axis = to_float(polygon.to_local(frame.z));
-        emission.mean = static_cast<float>(mean_over_sides(spread_mean));
+        emission.mean = static_cast<float>(mean.spread);
         if (request.luminaire == nullptr) continue;
-        const double mean = mean_over_sides(unspread_mean);
-        shape.radiance.push_back(mean / kLumensPerWatt);
-        flux += (light.two_sided ? 2 : 1) * kPi * area(light) * mean;
+        shape.radiance.push_back(mean.unspread / kLumensPerWatt);
+        flux += (light.two_sided ? 2 : 1) * kPi * area(light) * mean.unspread;
     }
     if (request.luminaire != nullptr) {
         const double whole = request.luminaire->profile.flux();
