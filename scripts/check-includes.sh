@@ -39,11 +39,11 @@ BEGIN {
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/sky", "src/scene/model src/scene/colour")
     allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour src/scene/sky")
-    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour")
+    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour src/scene/import/ies")
     below = "src/scene/input src/scene/model src/scene/colour src/scene/sky src/scene/build"
     allow("src/scene/import/ply", below)
     allow("src/scene/import/ies", below " src/scene/import")
-    allow("src/scene/import/pbrt", below " src/scene/import/ply")
+    allow("src/scene/import/pbrt", below " src/scene/import/ply src/scene/import/ies")
     # The table of importers.
     allow("src/scene/import", below " src/base src/scene/import/pbrt")
     scene = "src/scene/input src/scene/model src/scene/rig src/scene/import src/scene/import/ies"

@@ -26,7 +26,7 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
         metadata["line_shading"] = std::string(name_of(settings.lines.shading));
         metadata["many_occluders"] = std::string(name_of(settings.lines.many_occluders));
     }
-    if (!scene.emission_textures.empty())
+    if (!scene.emission_textures.empty() || !scene.emission_profiles.empty())
         metadata["emission_sampling"] = std::string(name_of(settings.emission_sampling));
     if (settings.part.count > 1)
         metadata["part"] = std::to_string(settings.part.number) + "/" + std::to_string(settings.part.count);

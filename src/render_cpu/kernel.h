@@ -66,7 +66,7 @@ struct LitPacket {};
 using AddLight = void (*)(LitPacket& packet, const LightSet& lights, std::int32_t index) noexcept;
 
 /// The largest number of shapes of one kind of light. Each shape has its own code.
-inline constexpr int kMostShapes = 4;
+inline constexpr int kMostShapes = 6;
 
 /// The code for a kind of light, compiled for one instruction set.
 struct LightCode {

@@ -1,6 +1,7 @@
 // The scenes that come with the project load silently and agree with their comments.
 
 #include "common/source_folder.h"
+#include "scene/model/profiles/emission_profile.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
 #include "scene_fixture.h"
@@ -160,6 +161,26 @@ TEST(ShippedScenes, Stage) {
     const PointLight& spot = scene.lights.of<PointLight>()[0];
     const Double3 to_ring = Double3{0, 0.5, 0} - to_double(spot.position);
     EXPECT_LT(length(cross(to_ring, to_double(spot.z_axis))), 1e-5);
+}
+
+TEST(ShippedScenes, Street) {
+    const Scene scene = shipped("street.pbrt");
+    // The road comes first; the camera sees its right-hand side.
+    expect_facing(scene, 0, 2, to_double(scene.camera.origin));
+    std::size_t luminaires = 0;
+    for (const PolygonLight& light : scene.lights.of<PolygonLight>()) {
+        if (light.profile < 0) continue;
+        const ProfiledEmission& emission = scene.emission_profiles[static_cast<std::size_t>(light.profile)];
+        const std::shared_ptr<const Luminaire>& luminaire = emission.profile->luminaire;
+        if (luminaire == nullptr || luminaire->name != "street.ies") continue;
+        ++luminaires;
+        EXPECT_LT(emission.profile->lost, 0.01);
+        const ProfilePlacement placement = place_profile(light, emission);
+        EXPECT_NEAR(placement.z_axis.y, -1, 1e-6);
+        // The half-plane of 90 degrees leads to the middle of the road.
+        EXPECT_GT(placement.y_axis.x * light.vertices[0].x, 0);
+    }
+    EXPECT_EQ(luminaires, 5u);
 }
 
 TEST(ShippedScenes, Wall) {

@@ -2,6 +2,7 @@
 /// Point lights in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/lights/luminaire_table.h"
 
 #include <memory>
 
@@ -15,7 +16,8 @@ struct PointRecord {
     float cone_end;           ///< scene::ConeFalloff::end
     float inverse_cone_width; ///< 1 / scene::ConeFalloff::width, or a large number
     scene::Float2 half_extent;
-    std::int32_t texture; ///< index into KernelScene::textures, -1 for none
+    LuminaireTable luminaire; ///< of the share of the intensity; without angles for none
+    std::int32_t texture;     ///< index into KernelScene::textures, -1 for none
 };
 
 /// Makes an array of PointRecord, see LightKernel.

@@ -1,6 +1,7 @@
 #include "render_cpu/lights/polygon_records.h"
 
 #include "render_cpu/lights/float_count.h"
+#include "render_cpu/lights/polygon_profiles.h"
 #include "render_cpu/lights/polygon_textures.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
@@ -22,6 +23,7 @@ struct PolygonArrays {
     std::vector<PolygonRecord> lights;
     std::vector<scene::Float3> corners;
     PolygonTextures textures;
+    PolygonProfiles profiles;
     PolygonRecords view{};
 };
 
@@ -53,6 +55,7 @@ PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& 
     record.radiance = light.radiance;
     record.two_sided = light.two_sided ? 1 : 0;
     record.texture = -1;
+    record.profile = -1;
     return record;
 }
 
@@ -71,8 +74,10 @@ std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, cons
     for (const scene::PolygonLight& light : polygons->lights) {
         arrays->lights.push_back(make_record(scene, light, arrays->corners));
         if (light.texture >= 0) arrays->lights.back().texture = arrays->textures.add(scene, light);
+        if (light.profile >= 0) arrays->lights.back().profile = arrays->profiles.add(scene, light);
     }
-    arrays->view = {arrays->lights.data(), arrays->corners.data(), arrays->textures.records()};
+    arrays->view = {arrays->lights.data(), arrays->corners.data(), arrays->textures.records(),
+                    arrays->profiles.records()};
     return {arrays, &arrays->view};
 }
 

@@ -2,6 +2,7 @@
 /// Polygonal lights in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/lights/luminaire_table.h"
 
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,29 @@ struct PolygonTexture {
     const void* cells;          ///< a TexturedLight<float, kTextureCells>
 };
 
+/// Columns and rows of the lattice of cells over a light with a profile.
+inline constexpr int kProfileCells = 4;
+
+/// A face of the shape that shines as a luminaire, in the frame of its profile.
+struct LuminousFaceRecord {
+    scene::Float3 normal;
+    float area;
+};
+
+/// How the radiance of a polygon depends on the direction.
+struct PolygonProfile {
+    scene::Float3 x_axis, y_axis, z_axis; ///< of the profile, in world space
+    scene::Float3 normal;                 ///< of the polygon, in world space
+    float inverse_slope;                  ///< of the spread, 0 for none
+    LuminaireTable luminaire;             ///< without angles for none
+    const LuminousFaceRecord* faces;
+    std::int32_t face_count;
+    float least_area;   ///< least visible area of the faces
+    float inverse_mean; ///< 1 / scene::ProfiledEmission::mean; 0 for dark lights
+    const void*
+        side[2]; ///< WindowedLight<float> of the front and, if it emits, of the back; of a mean radiance of 1
+};
+
 /// A polygon in the form of ConvexPolygon<float, 4> or <float, 8>. Its vertices and then its edges are in
 /// PolygonRecords::corners.
 struct PolygonRecord {
@@ -30,12 +54,14 @@ struct PolygonRecord {
     std::int32_t slots; ///< room for vertices, and for as many edges: 4 or 8
     std::int32_t two_sided;
     std::int32_t texture; ///< index into PolygonRecords::textures, -1 for none
+    std::int32_t profile; ///< index into PolygonRecords::profiles, -1 for none
 };
 
 struct PolygonRecords {
     const PolygonRecord* lights;
     const scene::Float3* corners;
     const PolygonTexture* textures;
+    const PolygonProfile* profiles;
 };
 
 /// Makes PolygonRecords, see LightKernel. Fails if a polygon has fewer than 3 vertices, or if the scene has more polygons

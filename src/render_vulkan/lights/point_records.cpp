@@ -3,6 +3,8 @@
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
 
+#include <stdexcept>
+
 namespace nusselt::render_vulkan {
 
 namespace {
@@ -26,6 +28,8 @@ bool write_points(const scene::LightList& list, LightRecords& records) {
     if (points == nullptr) return false;
     std::vector<interface::PointLightRecord> lights;
     for (const scene::PointLight& light : points->lights) {
+        if (light.distribution == PointDistribution::profile)
+            throw std::runtime_error("lights with a profile are not supported on GPUs; use --backend cpu");
         const scene::ConeFalloff falloff = cone_falloff(light);
         interface::PointLightRecord& record = lights.emplace_back();
         copy(light.position, record.position);

@@ -27,6 +27,9 @@ void add_polygon(const scene::PolygonLight& light, PolygonArrays& arrays) {
     for (const Vec3<float>& edge : polygon.edge) arrays.corners.push_back(scene::to_float3(edge));
     interface::PolygonLightRecord& record = arrays.lights.emplace_back();
     copy(scene::to_float3(polygon.normal), record.normal);
+    if (light.profile >= 0)
+        throw std::runtime_error(
+            "lights with a profile or a spread are not supported on GPUs; use --backend cpu");
     copy(light.radiance, record.radiance);
     record.is_two_sided = light.two_sided ? 1 : 0;
 }

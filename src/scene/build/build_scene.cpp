@@ -160,6 +160,8 @@ void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& 
     replace_missing_materials(scene.triangle_material, scene.materials);
     scene.lights.append(std::move(shapes.lights));
     scene.emission_textures = std::move(shapes.emission_textures);
+    scene.emission_profiles = std::move(shapes.emission_profiles);
+    scene.luminaires = std::move(shapes.luminaires);
     scene.environment_maps = std::move(shapes.environment_maps);
 }
 

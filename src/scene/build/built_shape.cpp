@@ -21,16 +21,19 @@ void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
     std::size_t lights = 0;
     std::size_t emitters = 0;
     std::size_t textures = 0;
+    std::size_t profiles = 0;
     for (BuiltShape& shape : shapes) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
         const auto first_light = static_cast<std::int32_t>(lights);
         const auto first_emitter = static_cast<std::uint32_t>(emitters);
         const auto first_texture = static_cast<std::int32_t>(textures);
+        const auto first_profile = static_cast<std::int32_t>(profiles);
         vertices += shape.positions.size();
         triangles += shape.triangles.size();
         lights += std::as_const(shape.lights).of<SurfaceLight>().size();
         emitters += shape.emitters.size();
         textures += shape.emission_textures.size();
+        profiles += shape.emission_profiles.size();
         check_counts(vertices, triangles, copies);
         if (first_vertex > 0)
             for (Triangle& triangle : shape.triangles)
@@ -41,6 +44,9 @@ void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
         if (first_texture > 0 && !shape.emission_textures.empty())
             for (PolygonLight& light : shape.lights.of<PolygonLight>())
                 if (light.texture >= 0) light.texture += first_texture;
+        if (first_profile > 0 && !shape.emission_profiles.empty())
+            for (PolygonLight& light : shape.lights.of<PolygonLight>())
+                if (light.profile >= 0) light.profile += first_profile;
         if (first_emitter > 0)
             for (LightList& list : shape.lights)
                 for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) += first_emitter;
@@ -93,6 +99,8 @@ BuiltShape join(std::vector<BuiltShape> shapes, std::string_view copies) {
     result.emitters = take_arrays(shapes, &BuiltShape::emitters, sizes_of(shapes, &BuiltShape::emitters), {});
     result.emission_textures = take_arrays(shapes, &BuiltShape::emission_textures,
                                            sizes_of(shapes, &BuiltShape::emission_textures), {});
+    result.emission_profiles = take_arrays(shapes, &BuiltShape::emission_profiles,
+                                           sizes_of(shapes, &BuiltShape::emission_profiles), {});
     std::vector<Lights> lights;
     lights.reserve(shapes.size());
     for (BuiltShape& shape : shapes) lights.push_back(std::move(shape.lights));

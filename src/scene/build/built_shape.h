@@ -23,8 +23,10 @@ struct BuiltShape : Mesh {
     /// Empty, or for each triangle the index of a SurfaceLight among those of these shapes, -1 for none.
     std::vector<std::int32_t> triangle_light;
     std::vector<std::uint32_t> triangle_material; ///< for each triangle ShapeDescription::material
-    Lights lights;                                ///< with indices into `emitters` and `emission_textures`
+    Lights lights; ///< with indices into `emitters`, `emission_textures` and `emission_profiles`
     std::vector<TexturedEmission> emission_textures;
+    std::vector<ProfiledEmission> emission_profiles;
+    std::vector<std::shared_ptr<const Luminaire>> luminaires;                  ///< of light sources
     std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps; ///< of light sources
     std::vector<EmitterOrigin> emitters;
     std::optional<Location> first_degenerate; ///< the first shape with degenerate triangles

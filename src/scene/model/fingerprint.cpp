@@ -1,6 +1,7 @@
 #include "scene/model/fingerprint.h"
 
 #include "scene/model/content_hash.h"
+#include "scene/model/profiles/emission_profile.h"
 
 #include <cstdio>
 #include <string>
@@ -83,6 +84,22 @@ public:
         for (const Float2& at : coordinates) add(at);
     }
 
+    void add(const Double3& v) { add_all(v.x, v.y, v.z); }
+
+    void add(const std::shared_ptr<const Luminaire>& luminaire) {
+        add(luminaire != nullptr);
+        if (luminaire == nullptr) return;
+        const auto& [vertical, horizontal, candelas] = luminaire->profile.table();
+        add_all(vertical, horizontal, candelas);
+    }
+
+    void add(const ProfiledEmission& emission) {
+        const auto& [profile, x_axis, z_axis, mean] = emission;
+        const auto& [luminaire, spread, faces, lost] = *profile;
+        add_all(luminaire, spread, x_axis, z_axis, mean, faces.size());
+        for (const LuminousFace& face : faces) add_all(face.normal, face.area);
+    }
+
     void add(const std::shared_ptr<const EnvironmentMapTexels>& map) {
         const auto& [name, size, texels, mean] = *map;
         add_all(size, texels, mean);
@@ -120,11 +137,11 @@ public:
 
     void add(const Scene& scene) {
         const auto& [positions, normals, uvs, triangles, triangle_material, triangle_light, objects,
-                     instances, materials, textures, emitters, lights, emission_textures, environment_maps,
-                     camera, film, files, warnings, radius] = scene;
+                     instances, materials, textures, emitters, lights, emission_textures, emission_profiles,
+                     luminaires, environment_maps, camera, film, files, warnings, radius] = scene;
         add_all(positions, normals, uvs, triangles, triangle_material, triangle_light, objects, instances,
-                materials, textures, emitters, lights, emission_textures, environment_maps, camera, film,
-                radius);
+                materials, textures, emitters, lights, emission_textures, emission_profiles, luminaires,
+                environment_maps, camera, film, radius);
     }
 
 private:

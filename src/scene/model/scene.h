@@ -5,6 +5,7 @@
 
 #include "scene/model/float3.h"
 #include "scene/model/lights/light_kinds.h"
+#include "scene/model/lights/profiled_emission.h"
 #include "scene/model/lights/textured_emission.h"
 
 #include <array>
@@ -150,6 +151,8 @@ struct Instance {
     std::array<float, 12> world_from_object = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 };
 
+struct Luminaire;
+
 struct Scene {
     // Vertices, all arrays equally long. A zero normal stands for the geometric normal of the triangle.
     std::vector<Float3> positions;
@@ -169,6 +172,8 @@ struct Scene {
     std::vector<Emitter> emitters;
     Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
     std::vector<TexturedEmission> emission_textures; ///< of polygonal lights
+    std::vector<ProfiledEmission> emission_profiles; ///< of polygonal lights
+    std::vector<std::shared_ptr<const Luminaire>> luminaires; ///< of point lights
     std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps;
     Camera camera;
     Film film;

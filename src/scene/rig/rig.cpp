@@ -5,6 +5,7 @@
 #include "scene/model/polygon.h"
 #include "scene/model/vector_math.h"
 #include "scene/rig/light_edit.h"
+#include "scene/rig/light_profile.h"
 
 #include <algorithm>
 #include <functional>
@@ -250,6 +251,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     if (!is_valid(light))
         fail(entry.where,
              "light " + in_quotes(light.name) + " would lie beyond 1e15 m or be too small to have an area");
+    if (const auto defect = change_profile(changes.profile, scene_, light))
+        fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
     change_emission(entry, light);
     if (changes.two_sided) {
         const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
@@ -259,6 +262,7 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
                      ", which has no second side");
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) *list.two_sided(i) = *changes.two_sided;
+        refit_profile(scene_, light);
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
     if (!changes.remove) return;

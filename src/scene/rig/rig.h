@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,14 @@ struct GivenEmission {
     Float3 value;
 };
 
+/// How the light depends on the direction.
+struct GivenProfile {
+    std::shared_ptr<const Luminaire> luminaire = {}; ///< null: as before
+    std::optional<double> spread = {};               ///< [degrees]
+    std::optional<double> angle = {};                ///< ProfileRequest::angle
+    bool is_empty() const { return luminaire == nullptr && !spread && !angle; }
+};
+
 /// Changes of a light, in the order of their application.
 struct LightChanges {
     std::optional<std::string> name;
@@ -41,6 +50,7 @@ struct LightChanges {
     std::optional<Rotation> rotation; ///< about the centroid
     std::optional<Float3> center;     ///< where the centroid goes
     std::optional<Double3> move;      ///< [m]
+    GivenProfile profile;
     std::optional<GivenEmission> emission;
     std::optional<double> kelvin; ///< colour of this temperature; the luminance stays
     std::optional<double> power;  ///< of the whole light [W], with channels weighted by their luminance

@@ -1,8 +1,10 @@
 #include "scene/rig/rig_json.h"
 
+#include "scene/import/ies/luminaires.h"
 #include "scene/input/json_node.h"
 #include "scene/input/message.h"
 #include "scene/model/polygon.h"
+#include "scene/model/profiles/emission_profile.h"
 #include "scene/rig/light_edit.h"
 
 #include <algorithm>
@@ -248,8 +250,35 @@ std::vector<std::string_view> emission_field_names() {
     return names;
 }
 
-LightChanges read_changes(const JsonNode& entry) {
+/// The files that a rig names.
+struct RigFiles {
+    std::filesystem::path folder; ///< of the rig
+    Luminaires luminaires = {};
+};
+
+std::shared_ptr<const Luminaire> read_ies_file(const JsonNode& node, RigFiles& files) {
+    try {
+        return files.luminaires.read(files.folder / node.text());
+    } catch (const std::exception& error) {
+        node.fail(error.what());
+    }
+}
+
+GivenProfile read_profile(const JsonNode& entry, RigFiles& files) {
+    GivenProfile profile;
+    if (const auto node = entry.find("ies")) profile.luminaire = read_ies_file(*node, files);
+    if (const auto node = entry.find("spread"))
+        profile.spread = node->number(kNarrowestSpread, kWidestSpread);
+    if (const auto node = entry.find("ies_degrees")) {
+        if (profile.luminaire == nullptr) node->fail("needs \"ies\"");
+        profile.angle = node->number(-kMaxDegrees, kMaxDegrees);
+    }
+    return profile;
+}
+
+LightChanges read_changes(const JsonNode& entry, RigFiles& files) {
     LightChanges changes;
+    changes.profile = read_profile(entry, files);
     if (const auto node = entry.find("name")) changes.name = node->text();
     changes.shape = read_shape(entry);
     if (const auto node = entry.find("scale")) changes.scale = read_scale(*node);
@@ -276,7 +305,7 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     LightAddition addition;
     addition.name = entry.at("add").text();
     if (!changes.shape) entry.fail("must have a shape; add one of " + any_shape());
-    if (!changes.emission && !changes.power)
+    if (!changes.emission && !changes.power && changes.profile.luminaire == nullptr)
         entry.fail("must have " + with_article(quantity_of(*changes.shape)->name) + " or a power");
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
@@ -291,21 +320,22 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     return addition;
 }
 
-RigLight read_light(const JsonNode& entry) {
+RigLight read_light(const JsonNode& entry, RigFiles& files) {
     std::vector<std::string_view> fields = {"light", "add", "comment", "name"};
     const std::vector<std::string_view> shapes = shape_field_names();
     fields.insert(fields.end(), shapes.begin(), shapes.end());
     const std::vector<std::string_view> emission = emission_field_names();
     fields.insert(fields.end(), emission.begin(), emission.end());
-    fields.insert(fields.end(), {"material", "scale", "rotate", "center", "move", "copies", "kelvin", "power",
-                                 "enabled", "two_sided", "remove", "scale_radiance"});
+    fields.insert(fields.end(),
+                  {"material", "scale", "rotate", "center", "move", "copies", "kelvin", "power", "enabled",
+                   "two_sided", "remove", "scale_radiance", "ies", "ies_degrees", "spread"});
     entry.check_fields(fields, kLightSynonyms);
     if (!find_one(entry, {"light", "add"}))
         entry.fail(
             "must have the field \"light\", which selects lights, or \"add\" with the name of a new one");
     RigLight result;
     result.where = entry.where();
-    result.changes = read_changes(entry);
+    result.changes = read_changes(entry, files);
     if (const auto light = entry.find("light")) {
         for (const char* field : {"copies", "material"})
             if (const auto node = entry.find(field)) node->fail("is supported only for new lights");
@@ -374,8 +404,9 @@ Rig read_rig(const std::filesystem::path& path) {
     root.check_fields({"version", "comment", "lights", "materials"});
     root.at("version").integer(1, 1);
     Rig rig;
+    RigFiles files{path.parent_path()};
     if (const auto lights = root.find("lights"))
-        for (const JsonNode& entry : lights->elements()) rig.lights.push_back(read_light(entry));
+        for (const JsonNode& entry : lights->elements()) rig.lights.push_back(read_light(entry, files));
     if (const auto materials = root.find("materials"))
         for (const JsonNode& entry : materials->elements()) rig.materials.push_back(read_material(entry));
     return rig;

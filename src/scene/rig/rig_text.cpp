@@ -2,6 +2,7 @@
 
 #include "scene/model/number_text.h"
 #include "scene/rig/light_edit.h"
+#include "scene/rig/light_profile.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -60,13 +61,16 @@ private:
     std::string text_;
 };
 
-std::string light_text(std::size_t index, const EditableLight& light) {
+std::string light_text(const Scene& scene, std::size_t index, const EditableLight& light) {
     Fields fields;
     fields.add("light", std::to_string(index));
     fields.add("name", name_text(light.name));
     const std::string shape = shape_field(light);
     fields.add(shape);
     if (shape.empty()) fields.add("center", triple_text(to_float(centroid(light))));
+    const LightProfile profile = profile_of(scene, light);
+    if (profile.luminaire != nullptr) fields.add("ies", name_text(profile.luminaire->path));
+    if (profile.spread < kWidestSpread) fields.add("spread", number_text(static_cast<float>(profile.spread)));
     fields.add(common_text(light, [](const LightList& list, std::size_t i) {
         return "\"" + std::string(list.quantity().name) + "\": " + triple_text(list.emission(i));
     }));
@@ -81,7 +85,8 @@ std::string light_text(std::size_t index, const EditableLight& light) {
 std::string to_rig_text(const Scene& scene) {
     std::string text;
     const std::vector<EditableLight> lights = editable_lights(scene);
-    for (std::size_t i = 0; i < lights.size(); ++i) text += (i > 0 ? "," : "") + light_text(i, lights[i]);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        text += (i > 0 ? "," : "") + light_text(scene, i, lights[i]);
     return "{\"version\": 1,\n  \"lights\": [" + text + "]}\n";
 }
 

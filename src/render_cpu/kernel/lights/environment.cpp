@@ -137,10 +137,14 @@ public:
                                          {single_lane<Ltc<float>>(lobe, lane)});
                 }};
     }
-    Vec3<float> radiance(const TexturedSample<float>& sample) const noexcept {
+    Vec3<float> radiance(const TexturedSample<float>& sample, int /*lane*/) const noexcept {
         return map_.radiance.lookup(sample.at);
     }
     Vec3<float> point(const TexturedSample<float>& sample) const noexcept { return distance_ * sample.wi; }
+    template <class Technique>
+    float density(const Technique& technique, const TexturedSample<float>& sample) const noexcept {
+        return technique.pdf_at(sample.at);
+    }
 
 private:
     const Map& map_;

@@ -1,6 +1,8 @@
 // Point lights: isotropic ones, spots and images.
 
+#include "render_cpu/kernel/lights/luminaire.h"
 #include "render_cpu/kernel/lights/one_direction.h"
+#include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/texture.h"
 #include "render_cpu/lights/point_records.h"
 
@@ -66,6 +68,12 @@ Vector projection(const render_cpu::KernelScene& scene, const render_cpu::PointR
     return select(is_inside, texel(scene, light, place, active & is_inside), grey(Real(0)));
 }
 
+Real luminaire(const render_cpu::PointRecord& light, const Vector& w) noexcept {
+    alignas(4 * kLanes) float share[kLanes];
+    for (int i = 0; i < kLanes; ++i) share[i] = intensity_in(light.luminaire, single_lane<Vec3<float>>(w, i));
+    return Real::load(share);
+}
+
 /// The share of the intensity in a direction. \param away unit, in world space
 Vector share(const render_cpu::KernelScene& scene, const render_cpu::PointRecord& light, const Vector& away,
              LaneMask active) noexcept {
@@ -84,6 +92,8 @@ Vector share(const render_cpu::KernelScene& scene, const render_cpu::PointRecord
         return texel(scene, light, latitude_place(w), active);
     case PointDistribution::projected_image:
         return projection(scene, light, w, active);
+    case PointDistribution::profile:
+        return grey(luminaire(light, w));
     }
     return grey(Real(1));
 }

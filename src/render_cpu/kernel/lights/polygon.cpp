@@ -10,11 +10,13 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     add[1] = has_lines ? polygon_lines<8>() : polygon_points<8>(job);
     add[2] = textured_points<4>(job);
     add[3] = textured_points<8>(job);
+    add[4] = profiled_points<4>(job);
+    add[5] = profiled_points<8>(job);
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
     const render_cpu::PolygonRecord& record = polygon_record(lights, index);
-    return (record.slots == 4 ? 0 : 1) + (record.texture < 0 ? 0 : 2);
+    return (record.slots == 4 ? 0 : 1) + (record.profile >= 0 ? 4 : record.texture >= 0 ? 2 : 0);
 }
 
 /// The radiance where a ray meets the plane of a texture.
@@ -33,6 +35,11 @@ scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, c
     const render_cpu::PolygonRecord& light = polygon_record(lights, index);
     const bool is_seen = light.two_sided != 0 || dot(to_vec(light.normal), to_vec(direction)) < 0;
     if (!is_seen) return {0, 0, 0};
+    if (const render_cpu::PolygonProfile* const profile = profile_of(lights, index)) {
+        const Vec3<float> away = -normalize(to_vec(direction));
+        const float factor = relative_radiance(*profile, axes_of(*profile), away);
+        return {factor * light.radiance.x, factor * light.radiance.y, factor * light.radiance.z};
+    }
     const render_cpu::PolygonTexture* const texture = texture_of(lights, index);
     return texture == nullptr ? light.radiance : radiance_along(*texture, to_vec(origin), to_vec(direction));
 }

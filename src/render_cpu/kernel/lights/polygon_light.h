@@ -2,7 +2,9 @@
 /// Polygonal lights with room for N vertices.
 
 #include "render_cpu/kernel/analytic.h"
+#include "render_cpu/kernel/lights/luminaire.h"
 #include "render_cpu/kernel/reflected_light.h"
+#include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/polygon_records.h"
 
@@ -30,6 +32,22 @@ inline const render_cpu::PolygonTexture* texture_of(const render_cpu::LightSet& 
                        : static_cast<const render_cpu::PolygonRecords*>(lights.records)->textures + texture;
 }
 
+/// The profile of a light, null for the same radiance in all directions.
+inline const render_cpu::PolygonProfile* profile_of(const render_cpu::LightSet& lights,
+                                                    std::int32_t index) noexcept {
+    const std::int32_t profile = polygon_record(lights, index).profile;
+    return profile < 0 ? nullptr
+                       : static_cast<const render_cpu::PolygonRecords*>(lights.records)->profiles + profile;
+}
+
+/// The axes of a profile in shading space.
+inline ProfileAxes<Real> local_axes(const render_cpu::PolygonProfile& profile,
+                                    const Surface& surface) noexcept {
+    const ProfileAxes<float> world = axes_of(profile);
+    const auto local = [&](const Vec3<float>& axis) { return surface.frame.to_local(broadcast<Real>(axis)); };
+    return {local(world.x), local(world.y), local(world.z), local(world.normal)};
+}
+
 inline TexturePlane<float> plane_of(const render_cpu::PolygonTexture& texture) noexcept {
     return {to_vec(texture.corner), to_vec(texture.side_x), to_vec(texture.side_y), to_vec(texture.normal)};
 }
@@ -55,9 +73,11 @@ inline Vec3<float> radiance_at(const render_cpu::PolygonTexture& texture, const 
 template <int N>
 struct LocalPolygon : ConvexPolygon<Real, N> {
     const render_cpu::PolygonTexture* texture; ///< null for uniform radiance
+    const render_cpu::PolygonProfile* profile; ///< null for the same radiance in all directions
 
-    /// Multiplies a sample by the radiance at its point over the mean.
+    /// Multiplies a sample by the radiance at its point and in its direction over the mean.
     void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
+        if (profile != nullptr) modulate_by_profile(surface, sample);
         if (texture == nullptr) return;
         const Vec2<Real> at = TextureCoordinates<Real>(local_plane(*texture, surface))(sample.p);
         Lanes radiance;
@@ -73,6 +93,17 @@ struct LocalPolygon : ConvexPolygon<Real, N> {
             radiance.z[i] = value.z;
         }
         sample.shadowed = (broadcast<Real>(to_vec(texture->inverse_mean)) * load(radiance)) * sample.shadowed;
+    }
+
+private:
+    void modulate_by_profile(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
+        const ProfileAxes<Real> axes = local_axes(*profile, surface);
+        const Vector away = -sample.wi;
+        alignas(4 * kLanes) float factor[kLanes];
+        for (int i = 0; i < kLanes; ++i)
+            factor[i] = relative_radiance(*profile, single_lane<ProfileAxes<float>>(axes, i),
+                                          single_lane<Vec3<float>>(away, i));
+        sample.shadowed = Real::load(factor) * sample.shadowed;
     }
 };
 
@@ -110,7 +141,7 @@ struct PolygonLight {
         Real highest = local.vertex[0].z;
         for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
         lit &= !(highest <= Real(0));
-        return {{local, texture_of(lights, index)},
+        return {{local, texture_of(lights, index), profile_of(lights, index)},
                 lit,
                 broadcast<Real>(to_vec(record.radiance)),
                 static_cast<std::uint32_t>(number)};
@@ -148,6 +179,10 @@ render_cpu::AddLight polygon_lines() noexcept;
 template <int N>
 render_cpu::AddLight textured_points(const render_cpu::RenderJob& job) noexcept;
 
+/// The function that takes points of polygons with a profile as a job demands.
+template <int N>
+render_cpu::AddLight profiled_points(const render_cpu::RenderJob& job) noexcept;
+
 template <>
 render_cpu::AddLight polygon_points<4>(const render_cpu::RenderJob& job) noexcept;
 template <>
@@ -156,6 +191,10 @@ template <>
 render_cpu::AddLight textured_points<4>(const render_cpu::RenderJob& job) noexcept;
 template <>
 render_cpu::AddLight textured_points<8>(const render_cpu::RenderJob& job) noexcept;
+template <>
+render_cpu::AddLight profiled_points<4>(const render_cpu::RenderJob& job) noexcept;
+template <>
+render_cpu::AddLight profiled_points<8>(const render_cpu::RenderJob& job) noexcept;
 template <>
 render_cpu::AddLight polygon_lines<4>() noexcept;
 template <>

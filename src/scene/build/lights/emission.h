@@ -2,6 +2,7 @@
 /// The emission of shapes.
 
 #include "scene/input/diagnostics.h"
+#include "scene/model/profiles/emission_profile.h"
 #include "scene/model/scene.h"
 
 #include <memory>
@@ -18,6 +19,9 @@ struct Emission {
     /// brightness of the texture.
     std::optional<double> power = {};
     std::shared_ptr<const EmissionTexture> texture = {}; ///< null for uniform radiance
+    /// How the radiance depends on the direction; not together with a texture. With a luminaire and without `power`, `radiance`
+    /// is a factor of what was measured, for each channel.
+    ProfileRequest profile = {};
 };
 
 /// Throws SceneError at `location` unless all channels of an emission are from 0 to kMaxRadiance.

@@ -3,6 +3,7 @@
 #include "scene/build/lights/emission.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"
+#include "scene/model/profiles/profile_radiance.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
@@ -91,9 +92,22 @@ void fit_image(const LightSourceDescription& source, const Texture* texture, Poi
     light.image_integral = to_float(integral);
 }
 
+/// Gives a light its luminaire. Its intensity becomes that of the peak.
+void set_luminaire(const LightSourceDescription& source, PointLight& light, BuiltShape& shapes) {
+    const auto& luminaires = shapes.luminaires;
+    const auto found = std::find(luminaires.begin(), luminaires.end(), source.luminaire);
+    light.profile = static_cast<std::int32_t>(found - luminaires.begin());
+    if (found == luminaires.end()) shapes.luminaires.push_back(source.luminaire);
+    set_profile(*source.luminaire, light);
+    if (!source.power)
+        light.intensity = to_float((source.luminaire->profile.peak().candelas / kLumensPerWatt) *
+                                   to_double(light.intensity));
+}
+
 /// Whether the light shines.
 bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light,
-            BuiltShape& /*shapes*/) {
+            BuiltShape& shapes) {
+    if (source.luminaire != nullptr) set_luminaire(source, light, shapes);
     if (is_image(light.distribution))
         fit_image(source, light.texture < 0 ? nullptr : &textures[static_cast<std::size_t>(light.texture)],
                   light);
@@ -175,8 +189,9 @@ void add_light_sources(const std::vector<LightSourceDescription>& sources,
     for (const LightSourceDescription& source : sources) {
         const auto add = [&](auto light) {
             if (!finish(source, textures, light, shapes)) {
-                shapes.warnings.add(source.origin,
-                                    subject_of(source) + ": left out because its image is black");
+                shapes.warnings.add(source.origin, subject_of(source) + ": left out because its " +
+                                                       (source.luminaire != nullptr ? "profile" : "image") +
+                                                       " is black");
                 return;
             }
             light.emitter = static_cast<std::uint32_t>(shapes.emitters.size());

@@ -3,8 +3,10 @@
 
 #include "scene/build/built_shape.h"
 #include "scene/build/lights/environment.h"
+#include "scene/model/profiles/luminaire.h"
 #include "scene/model/transform.h"
 
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -23,6 +25,8 @@ struct LightSourceDescription {
     std::variant<PointLight, DistantLight, EnvironmentLight> light;
     /// The power if the luminance of the emission were one [W].
     std::optional<double> power = {};
+    /// Of point lights with a profile. Without `power`, the intensity is a factor of what was measured, for each channel.
+    std::shared_ptr<const Luminaire> luminaire = {};
     /// Of environments: what a surface with their axis z as its normal receives, likewise [W/m^2].
     std::optional<double> irradiance = {};
     /// Of environments: a sky in place of an image. Radiance is a factor then.

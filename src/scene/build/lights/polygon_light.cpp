@@ -1,5 +1,6 @@
 #include "scene/build/lights/polygon_light.h"
 
+#include "scene/build/lights/profiled_light.h"
 #include "scene/build/lights/textured_light.h"
 #include "scene/build/polygons/polygon_merge.h"
 #include "scene/model/vector_math.h"
@@ -47,7 +48,9 @@ void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& word
 void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
     orient_by_shading_normals(built);
     PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
-    if (shape.emission.texture != nullptr && !built.uvs.empty())
+    if (has_profile(shape.emission))
+        add_profiled_polygons(shape, words, std::move(partition), built);
+    else if (shape.emission.texture != nullptr && !built.uvs.empty())
         add_textured_polygons(shape, words, std::move(partition), built);
     else
         add_uniform_polygons(shape, words, std::move(partition), built);

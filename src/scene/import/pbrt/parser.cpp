@@ -130,7 +130,7 @@ private:
     std::optional<int> invisible_light_material_;
     TextureTable textures_;
     SurfaceVariants surface_variants_;
-    EmissionImages emission_images_;
+    EmissionFiles emission_files_;
     TypeCounter left_out_shapes_;
     ObjectTable objects_;
     TypeCounter ignored_lights_;
@@ -462,16 +462,21 @@ void Parser::light_source() {
     light.world_from_light = state_.current().ctm;
     light.version = version_;
     light.image_path = resolve(light.parameters.string(image_parameter(version_), ""));
-    if (auto source = read_light_source(light, textures_.planner(), scene_.warnings))
+    light.ies_path = resolve(light.parameters.string("ies", ""));
+    if (auto source =
+            read_light_source(light, textures_.planner(), emission_files_.luminaires, scene_.warnings))
         scene_.light_sources.push_back(std::move(*source));
 }
 
 void Parser::area_light_source() {
     const std::string type = reader_.read_type();
     ParameterList parameters = read_parameters(AttributeTarget::light);
-    const std::string image_name = parameters.string("filename", "");
-    const std::filesystem::path image = image_name.empty() ? std::filesystem::path() : resolve(image_name);
-    state_.current().emission = read_emission(type, parameters, image, emission_images_, scene_.warnings);
+    const auto path_of = [&](std::string_view parameter) {
+        const std::string name = parameters.string(parameter, "");
+        return name.empty() ? std::filesystem::path() : resolve(name);
+    };
+    const EmissionPaths paths{path_of("filename"), path_of("ies")};
+    state_.current().emission = read_emission(type, parameters, paths, emission_files_, scene_.warnings);
 }
 
 MaterialEntry& Parser::add_material(const std::string& name, const std::string& type,

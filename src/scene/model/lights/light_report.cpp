@@ -1,6 +1,7 @@
 #include "scene/model/lights/light_report.h"
 
 #include "scene/model/lights/light_text.h"
+#include "scene/model/profiles/emission_profile.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
@@ -30,6 +31,24 @@ void write_weak_lights(const LightList& list, double scene_radius, std::ostream&
            << report_text(kWeak) << " of the power of all\n";
 }
 
+/// What is to be said of the profile of a light; nothing if it has none.
+std::string profile_text(const Scene& scene, const LightList& list, std::size_t i) {
+    if (const auto* const points = dynamic_cast<const LightsOf<PointLight>*>(&list)) {
+        const std::int32_t luminaire = points->lights[i].profile;
+        return luminaire < 0 ? "" : ", " + scene.luminaires[static_cast<std::size_t>(luminaire)]->name;
+    }
+    const auto* const polygons = dynamic_cast<const LightsOf<PolygonLight>*>(&list);
+    if (polygons == nullptr || polygons->lights[i].profile < 0) return "";
+    const EmissionProfile& profile =
+        *scene.emission_profiles[static_cast<std::size_t>(polygons->lights[i].profile)].profile;
+    std::string text;
+    if (profile.luminaire != nullptr)
+        text +=
+            ", " + profile.luminaire->name + " without " + report_text(100 * profile.lost) + " % of its flux";
+    if (profile.spread < kWidestSpread) text += ", spread " + report_text(profile.spread) + " degrees";
+    return text;
+}
+
 } // namespace
 
 void write_light_report(const Scene& scene, std::ostream& stream) {
@@ -44,7 +63,7 @@ void write_light_report(const Scene& scene, std::ostream& stream) {
         for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
             while (end < list.size() && list.emitter(end) == list.emitter(begin)) ++end;
             stream << "  " << scene.emitters[list.emitter(begin)].name << ": "
-                   << list.describe(begin, end, scene.radius) << "\n";
+                   << list.describe(begin, end, scene.radius) << profile_text(scene, list, begin) << "\n";
         }
         write_weak_lights(list, scene.radius, stream);
     }

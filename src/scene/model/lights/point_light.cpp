@@ -4,6 +4,7 @@
 #include "scene/model/lights/light_geometry.h"
 #include "scene/model/lights/light_text.h"
 #include "scene/model/number_text.h"
+#include "scene/model/profiles/luminaire.h"
 #include "scene/model/transform.h"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ std::string describe_distribution(const PointLight& light) {
     case PointDistribution::octahedral_image:
     case PointDistribution::latitude_image:
         return "goniometric";
+    case PointDistribution::profile:
+        return "luminaire";
     case PointDistribution::projected_image: {
         const auto degrees = [](float half) { return std::atan(half) * (360 / std::numbers::pi); };
         return "projects " + report_text(degrees(light.half_extent.x)) + " x " +
@@ -56,7 +59,9 @@ bool is_cone(PointDistribution distribution) {
 }
 
 bool is_image(PointDistribution distribution) {
-    return distribution != PointDistribution::isotropic && !is_cone(distribution);
+    return distribution == PointDistribution::octahedral_image ||
+           distribution == PointDistribution::latitude_image ||
+           distribution == PointDistribution::projected_image;
 }
 
 ConeFalloff cone_falloff(const PointLight& light) {
@@ -69,9 +74,17 @@ float inverse_width(const ConeFalloff& falloff) {
     return static_cast<float>(std::min(1 / falloff.width, kSharp));
 }
 
+void set_profile(const Luminaire& luminaire, PointLight& light) {
+    light.distribution = PointDistribution::profile;
+    const double peak = luminaire.profile.peak().candelas;
+    const double integral = peak > 0 ? luminaire.profile.flux() / peak : 0;
+    light.image_integral = to_float(Double3{integral, integral, integral});
+}
+
 /// A zone of the sphere has an area in proportion to its height, so the border counts by the mean of its falloff.
 Double3 solid_angle(const PointLight& light) {
-    if (is_image(light.distribution)) return to_double(light.image_integral);
+    if (is_image(light.distribution) || light.distribution == PointDistribution::profile)
+        return to_double(light.image_integral);
     double heights = 2;
     if (is_cone(light.distribution)) {
         const ConeFalloff falloff = cone_falloff(light);
@@ -85,9 +98,9 @@ Double3 solid_angle(const PointLight& light) {
 // A new member does not compile until it is listed here.
 void Kind::hash(const PointLight& light, ContentHash& hash) {
     const auto& [emitter, position, intensity, distribution, x_axis, y_axis, z_axis, cone_angle, full_angle,
-                 texture, half_extent, image_integral] = light;
+                 profile, texture, half_extent, image_integral] = light;
     hash.add(emitter, position, intensity, distribution, x_axis, y_axis, z_axis, cone_angle, full_angle,
-             texture, half_extent, image_integral);
+             profile, texture, half_extent, image_integral);
 }
 
 Double3 Kind::flux_per_emission(const PointLight& light, double /*scene_radius*/) {
@@ -111,7 +124,7 @@ bool Kind::same_shape(const PointLight& a, const PointLight& b) {
     if (!nearly_equal(a.z_axis, b.z_axis)) return false;
     if (is_cone(a.distribution)) return a.cone_angle == b.cone_angle && a.full_angle == b.full_angle;
     return nearly_equal(a.x_axis, b.x_axis) && nearly_equal(a.y_axis, b.y_axis) && a.texture == b.texture &&
-           a.half_extent.x == b.half_extent.x && a.half_extent.y == b.half_extent.y;
+           a.profile == b.profile && a.half_extent.x == b.half_extent.x && a.half_extent.y == b.half_extent.y;
 }
 
 /// The point of the ray next to the light.

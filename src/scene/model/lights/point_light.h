@@ -13,6 +13,7 @@ enum class PointDistribution : std::uint32_t {
     octahedral_image, ///< of all directions, by the equal-area map of octahedra (Clarberg 2008), z in the centre
     latitude_image, ///< of all directions, by azimuth from x to y and inclination, z at the upper border
     projected_image, ///< of those that a pyramid around z contains, as a slide projector; x to the right, y down
+    profile,         ///< that of a luminaire, whose axis is z
 };
 
 /// A light without extent. Cameras do not see it. Where `distribution` is 1 it has the intensity `intensity`.
@@ -28,10 +29,12 @@ struct PointLight {
     // Of cones: angles from the axis [degrees].
     float cone_angle = 30; ///< where it becomes dark, above 0 and at most 180
     float full_angle = 25; ///< up to which it is fully bright, from 0 to the other angle
+    std::int32_t profile =
+        -1; ///< of a luminaire: index into Scene::luminaires; the distribution is 1 at its peak
     // Of images.
     int texture = -1;                  ///< index into Scene::textures; -1 for a constant 1
     Float2 half_extent = {1, 1};       ///< of projected ones: of the picture at a distance of 1
-    Float3 image_integral = {0, 0, 0}; ///< over all directions [sr]
+    Float3 image_integral = {0, 0, 0}; ///< over all directions, also of luminaires [sr]
 };
 
 bool is_cone(PointDistribution distribution);
@@ -45,6 +48,10 @@ struct ConeFalloff {
 ConeFalloff cone_falloff(const PointLight& light);
 /// 1 / width, and for sharp borders a number so large that t is 0 or 1 for any x beside the border.
 float inverse_width(const ConeFalloff& falloff);
+
+struct Luminaire;
+/// Gives a light the distribution of a luminaire; its index is left to the caller.
+void set_profile(const Luminaire& luminaire, PointLight& light);
 
 /// The integral of the distribution over all directions, for each channel [sr].
 Double3 solid_angle(const PointLight& light);

@@ -53,8 +53,8 @@ void Kind::add_to(const PolygonLight& light, Bounds& bounds) {
 
 // A new member does not compile until it is listed here.
 void Kind::hash(const PolygonLight& light, ContentHash& hash) {
-    const auto& [emitter, texture, vertices, radiance, two_sided] = light;
-    hash.add(emitter, texture);
+    const auto& [emitter, texture, vertices, radiance, two_sided, profile] = light;
+    hash.add(emitter, texture, profile);
     hash.add(vertices.size());
     for (const Float3& vertex : vertices) hash.add(vertex);
     hash.add(radiance, two_sided);
@@ -121,8 +121,9 @@ std::string Kind::describe(std::span<const PolygonLight> lights, double /*scene_
     const double sides = first.two_sided ? 2 : 1;
     return (lights.size() > 1 ? std::to_string(lights.size()) + " polygons, " : "") +
            std::to_string(vertices) + " vertices, " + report_text(sum) + " m^2, " +
-           (first.texture >= 0 ? "textured, mean radiance " : "radiance ") + report_text(first.radiance) +
-           " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
+           (first.texture >= 0 ? "textured, " : "") +
+           (first.texture >= 0 || first.profile >= 0 ? "mean radiance " : "radiance ") +
+           report_text(first.radiance) + " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
            power_text(lambertian_flux(sides * sum), first.radiance);
 }
 

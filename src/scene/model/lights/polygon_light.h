@@ -58,8 +58,11 @@ struct PolygonLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     std::int32_t texture = -1; ///< index into Scene::emission_textures, -1 for uniform radiance
     PolygonVertices vertices = {};
-    Float3 radiance = {0, 0, 0}; ///< with a texture the mean over the area
+    Float3 radiance = {0, 0,
+                       0}; ///< with a texture the mean over the area, with a profile that over directions
     bool two_sided = false;
+    std::int32_t profile =
+        -1; ///< index into Scene::emission_profiles, -1 for the same radiance in all directions
 };
 
 /// The area of one side [m^2].

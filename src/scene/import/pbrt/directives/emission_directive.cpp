@@ -1,6 +1,9 @@
 #include "scene/import/pbrt/directives/emission_directive.h"
 
+#include "scene/colour/colour_space.h"
 #include "scene/model/vector_math.h"
+
+#include <cmath>
 
 namespace nusselt::scene {
 
@@ -12,10 +15,38 @@ std::optional<double> read_power(ParameterList& parameters) {
     return power && *power > 0 ? power : std::nullopt;
 }
 
+/// Reads the extensions "ies", "iesangle" and "spread".
+void read_profile(ParameterList& parameters, const std::filesystem::path& path, Luminaires& luminaires,
+                  Emission& emission) {
+    const auto fail = [&](std::string_view parameter, const std::string& message) {
+        throw SceneError(parameters.location_of(parameter), "AreaLightSource: " + message);
+    };
+    ProfileRequest& profile = emission.profile;
+    profile.spread = parameters.real("spread", kWidestSpread);
+    if (!(profile.spread >= kNarrowestSpread && profile.spread <= kWidestSpread))
+        fail("spread", "spread must be from " + to_text(kNarrowestSpread) + " to " + to_text(kWidestSpread) +
+                           " degrees, found " + to_text(profile.spread));
+    if (!parameters.string("ies", "").empty()) {
+        profile.angle = parameters.real("iesangle", 0);
+        if (!(std::fabs(profile.angle) <= 3600))
+            fail("iesangle", "iesangle must be from -3600 to 3600 degrees");
+        const Location location = parameters.location_of("ies");
+        if (parameters.named_files().note(location, "IES file", path))
+            profile.luminaire = luminaires.read(path);
+        // The lumens of the file are right for any colour.
+        if (const double brightness = luminance(to_double(emission.radiance)); brightness > 0)
+            emission.radiance =
+                to_float((parameters.real("scale", 1) / brightness) * to_double(emission.radiance));
+    }
+    const bool has_profile = profile.luminaire != nullptr || profile.spread < kWidestSpread;
+    if (has_profile && emission.texture != nullptr)
+        fail("filename", "an image and \"ies\" or \"spread\" do not work together; keep one of them");
+}
+
 } // namespace
 
-Emission read_emission(const std::string& type, ParameterList& parameters,
-                       const std::filesystem::path& image_path, EmissionImages& images, Warnings& warnings) {
+Emission read_emission(const std::string& type, ParameterList& parameters, const EmissionPaths& paths,
+                       EmissionFiles& files, Warnings& warnings) {
     // "area" is pbrt v2's name for it.
     if (type != "diffuse" && type != "area") {
         warnings.add(parameters.location(),
@@ -27,16 +58,17 @@ Emission read_emission(const std::string& type, ParameterList& parameters,
     Float3 colour = parameters.colour("L", {1, 1, 1}, warnings, SpectrumUse::illuminant);
     if (!parameters.string("filename", "").empty()) {
         ImageRequest request;
-        request.path = image_path;
+        request.path = paths.image;
         request.location = parameters.location_of("filename");
         if (parameters.named_files().note(request.location, "texture file", request.path))
-            emission.texture = images.read(request, parameters.budget(), warnings);
+            emission.texture = files.images.read(request, parameters.budget(), warnings);
         colour = {1, 1, 1};
     }
     // v3 also scales by a colour.
     const auto scale = static_cast<float>(parameters.real("scale", 1));
     const Float3 tint = parameters.colour("scale", {scale, scale, scale}, warnings);
     emission.radiance = {colour.x * tint.x, colour.y * tint.y, colour.z * tint.z};
+    read_profile(parameters, paths.ies, files.luminaires, emission);
     emission.two_sided = parameters.boolean("twosided", false);
     check_radiance(emission.radiance, "AreaLightSource", parameters.location());
     parameters.ignore({"samples", "nsamples", "xsamples", "ysamples"});

@@ -3,6 +3,7 @@
 
 #include "scene/build/lights/emission.h"
 #include "scene/build/textures/emission_images.h"
+#include "scene/import/ies/luminaires.h"
 #include "scene/import/pbrt/syntax/parameters.h"
 
 #include <filesystem>
@@ -10,10 +11,21 @@
 
 namespace nusselt::scene {
 
+/// The files that the emissions of a scene name.
+struct EmissionFiles {
+    EmissionImages images;
+    Luminaires luminaires;
+};
+
+/// The files that one directive names; unused if there is none.
+struct EmissionPaths {
+    std::filesystem::path image; ///< by the parameter "filename"
+    std::filesystem::path ies;   ///< by the parameter "ies"
+};
+
 /// Reduces an AreaLightSource directive; docs/materials.md has the rules. Unknown types do not emit, with a warning.
-/// \param image_path  of the file that the parameter "filename" names; unused if there is none
-/// Throws SceneError at values that are negative or not finite, and if the image cannot be read.
-Emission read_emission(const std::string& type, ParameterList& parameters,
-                       const std::filesystem::path& image_path, EmissionImages& images, Warnings& warnings);
+/// Throws SceneError at values that are negative or not finite, and if a file cannot be read.
+Emission read_emission(const std::string& type, ParameterList& parameters, const EmissionPaths& paths,
+                       EmissionFiles& files, Warnings& warnings);
 
 } // namespace nusselt::scene

@@ -1,6 +1,7 @@
 #include "scene/import/pbrt/directives/light_source_directive.h"
 
 #include "scene/build/lights/emission.h"
+#include "scene/colour/colour_space.h"
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"
 
@@ -16,12 +17,16 @@ namespace {
 /// Reads the light of one directive.
 class LightSourceReader {
 public:
-    LightSourceReader(LightSourceDirective& directive, TexturePlanner& textures, Warnings& warnings)
+    LightSourceReader(LightSourceDirective& directive, TexturePlanner& textures, Luminaires& luminaires,
+                      Warnings& warnings)
         : directive_(directive),
           parameters_(directive.parameters),
           textures_(textures),
+          luminaires_(luminaires),
           warnings_(warnings) {}
 
+    /// The luminaire of a light with the extension "ies", null for other lights. The axes of the light must be right-handed.
+    std::shared_ptr<const Luminaire> luminaire(PointLight& light);
     PointLight point();
     PointLight spot();
     PointLight goniometric();
@@ -54,6 +59,7 @@ private:
     LightSourceDirective& directive_;
     ParameterList& parameters_;
     TexturePlanner& textures_;
+    Luminaires& luminaires_;
     Warnings& warnings_;
 };
 
@@ -104,6 +110,31 @@ int LightSourceReader::image(int channels, TextureWrap wrap) {
     node.wrap = wrap;
     node.filter = is_v3() ? TextureFilter::bilinear : TextureFilter::nearest;
     return textures_.request(textures_.formulas().add(node), channels, parameters_.location());
+}
+
+std::shared_ptr<const Luminaire> LightSourceReader::luminaire(PointLight& light) {
+    if (parameters_.string("ies", "").empty()) return nullptr;
+    const double angle = parameters_.real("iesangle", 0);
+    if (!(std::fabs(angle) <= 3600)) fail("iesangle", "iesangle must be from -3600 to 3600 degrees");
+    const double turn = angle * (std::numbers::pi / 180);
+    // Seen against the axis, where the luminaire shines to, the turn is counter-clockwise.
+    const LightFrame axes = frame();
+    warn_of_skew(axes);
+    const Double3 z =
+        light.distribution == PointDistribution::isotropic ? to_double(axes.z) : to_double(light.z_axis);
+    Double3 x = to_double(axes.x) - dot(to_double(axes.x), z) * z;
+    if (!(length(x) > 1e-3)) x = to_double(axes.y) - dot(to_double(axes.y), z) * z;
+    x = normalized(x);
+    x = std::cos(turn) * x + std::sin(turn) * cross(z, x);
+    light.x_axis = to_float(x);
+    light.y_axis = to_float(cross(z, x));
+    light.z_axis = to_float(z);
+    // The lumens of the file are right for any colour.
+    if (const double brightness = luminance(to_double(light.intensity)); brightness > 0)
+        light.intensity = to_float((parameters_.real("scale", 1) / brightness) * to_double(light.intensity));
+    if (!parameters_.named_files().note(parameters_.location_of("ies"), "IES file", directive_.ies_path))
+        return nullptr;
+    return luminaires_.read(directive_.ies_path);
 }
 
 PointLight LightSourceReader::point() {
@@ -265,9 +296,18 @@ void read_point_light(LightSourceReader& reader, LightSourceDescription& source)
     source.power = reader.positive("power");
 }
 
+/// Points and spots, which may have a luminaire.
+template <PointLight (LightSourceReader::*read)()>
+void read_lamp(LightSourceReader& reader, LightSourceDescription& source) {
+    PointLight light = (reader.*read)();
+    source.luminaire = reader.luminaire(light);
+    source.light = light;
+    source.power = reader.positive("power");
+}
+
 constexpr LightSourceType kTypes[] = {
-    {"point", "point light", &read_point_light<&LightSourceReader::point>},
-    {"spot", "spot light", &read_point_light<&LightSourceReader::spot>},
+    {"point", "point light", &read_lamp<&LightSourceReader::point>},
+    {"spot", "spot light", &read_lamp<&LightSourceReader::spot>},
     {"goniometric", "goniometric light", &read_point_light<&LightSourceReader::goniometric>},
     {"projection", "projection light", &read_point_light<&LightSourceReader::projection>},
     {"distant", "distant light",
@@ -308,8 +348,9 @@ std::string_view image_parameter(PbrtVersion version) {
 }
 
 std::optional<LightSourceDescription> read_light_source(LightSourceDirective& directive,
-                                                        TexturePlanner& textures, Warnings& warnings) {
-    LightSourceReader reader(directive, textures, warnings);
+                                                        TexturePlanner& textures, Luminaires& luminaires,
+                                                        Warnings& warnings) {
+    LightSourceReader reader(directive, textures, luminaires, warnings);
     const LightSourceType& type = *find_type(directive.type);
     ParameterList& parameters = directive.parameters;
     LightSourceDescription source{type.kind, parameters.location(), {}};

@@ -1,0 +1,102 @@
+// Points on polygons with a profile.
+
+#include "render_cpu/kernel/lights/cell_samples.h"
+#include "render_cpu/kernel/lights/polygon_light.h"
+
+#include <nusselt/emission/windowed_polygon.h>
+
+NUSSELT_NAMESPACE_BEGIN
+namespace kernel {
+namespace {
+
+constexpr int kCells = render_cpu::kProfileCells;
+using DiffuseCells = WindowedPolygon<float, kCells>;
+using SpecularCells = WindowedPolygonLtc<float, kCells>;
+
+/// A light with a profile as a packet of shading points sees it, see cell_samples.h. Radiance is relative to its mean.
+class ProfileCells {
+public:
+    /// \param is_behind lanes that see the back of the light
+    ProfileCells(const render_cpu::PolygonProfile& profile, const Surface& surface,
+                 LaneMask is_behind) noexcept
+        : profile_(profile),
+          surface_(surface),
+          axes_(local_axes(profile, surface)),
+          is_behind_(is_behind.bits()) {}
+
+    LaneTechniques<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, [&](int lane) { return DiffuseCells(plane(lane), side(lane)); }};
+    }
+    LaneTechniques<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, [&](int lane) {
+                    return SpecularCells(plane(lane), side(lane), {single_lane<Ltc<float>>(lobe, lane)});
+                }};
+    }
+    Vec3<float> radiance(const WindowSample<float>& sample, int lane) const noexcept {
+        const float value =
+            relative_radiance(profile_, single_lane<ProfileAxes<float>>(axes_, lane), -sample.wi);
+        return {value, value, value};
+    }
+    Vec3<float> point(const WindowSample<float>& sample) const noexcept { return sample.p; }
+    template <class Technique>
+    float density(const Technique& technique, const WindowSample<float>& sample) const noexcept {
+        return technique.pdf(sample.wi);
+    }
+
+private:
+    const WindowedLight<float>& side(int lane) const noexcept {
+        return *static_cast<const WindowedLight<float>*>(profile_.side[is_behind_ >> lane & 1u]);
+    }
+    WindowPlane<float> plane(int lane) const noexcept {
+        return to_shading_space(side(lane).plane, single_lane<Vec3<float>>(surface_.position, lane),
+                                single_lane<Frame<float>>(surface_.frame, lane));
+    }
+
+    const render_cpu::PolygonProfile& profile_;
+    const Surface& surface_;
+    ProfileAxes<Real> axes_;
+    std::uint32_t is_behind_;
+};
+
+template <int N>
+using WithoutProfile = LocalLight<ConvexPolygon<Real, N>>;
+
+template <int N, void (*add)(ReflectedLight&, const ProfileCells&, const WithoutProfile<N>&) noexcept>
+void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                  std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = PolygonLight<N>::local(reflected, lights, index);
+    if (!any(light.lit)) return;
+    const LaneMask is_behind = light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
+    const ProfileCells cells(*light.shape.profile, reflected.surface(), is_behind);
+    const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
+    add(reflected, cells, plain);
+}
+
+template <int N>
+render_cpu::AddLight choose_technique(const render_cpu::RenderJob& job) noexcept {
+    using render::Strategies;
+    using render::Technique;
+    if (job.technique == Technique::ltc_analytic) return &add_profiled<N, &add_cell_integrals>;
+    const bool is_projected = job.technique == Technique::projected_solid_angle ||
+                              job.technique == Technique::projected_solid_angle_biased;
+    if (job.emission_sampling == render::EmissionSampling::product && is_projected) {
+        if (job.strategies == Strategies::diffuse) return &add_profiled<N, &add_by_cells>;
+        if (job.strategies == Strategies::diffuse_ltc) return &add_profiled<N, &add_by_cell_pair>;
+    }
+    return polygon_points<N>(job);
+}
+
+} // namespace
+
+template <>
+render_cpu::AddLight profiled_points<4>(const render_cpu::RenderJob& job) noexcept {
+    return choose_technique<4>(job);
+}
+template <>
+render_cpu::AddLight profiled_points<8>(const render_cpu::RenderJob& job) noexcept {
+    return choose_technique<8>(job);
+}
+
+} // namespace kernel
+NUSSELT_NAMESPACE_END

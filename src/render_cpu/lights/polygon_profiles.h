@@ -1,0 +1,45 @@
+#pragma once
+/// The profiles of polygonal lights, prepared for kernels.
+
+#include "render_cpu/lights/luminaire_tables.h"
+#include "render_cpu/lights/polygon_records.h"
+#include "scene/model/scene.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+namespace nusselt::render_cpu {
+
+class PolygonProfiles {
+public:
+    PolygonProfiles();
+    PolygonProfiles(const PolygonProfiles&) = delete;
+    PolygonProfiles& operator=(const PolygonProfiles&) = delete;
+    ~PolygonProfiles();
+
+    /// Prepares the profile of a light that has one. \returns the index of its record
+    std::int32_t add(const scene::Scene& scene, const scene::PolygonLight& light);
+    /// Valid until the next call of add().
+    const PolygonProfile* records() const { return records_.data(); }
+
+private:
+    struct Side;
+    struct Table;
+    /// Luminaire, spread, and the rounded normal of the side, and those and the shares of the area of all faces: what a table
+    /// follows from. Scenes have thousands of luminaires of one kind.
+    using TableKey = std::tuple<const scene::Luminaire*, double, std::vector<long>>;
+
+    /// \param normal of the side, in the frame of the profile
+    const Table& table_of(const scene::ProfiledEmission& emission, const scene::Double3& normal);
+
+    LuminaireTables luminaires_;
+    std::vector<std::vector<LuminousFaceRecord>> faces_;
+    std::map<TableKey, std::unique_ptr<Table>> tables_;
+    std::vector<std::unique_ptr<Side>> sides_;
+    std::vector<PolygonProfile> records_;
+};
+
+} // namespace nusselt::render_cpu

@@ -1,0 +1,99 @@
+#include "scene/build/lights/profiled_light.h"
+
+#include "scene/model/profiles/emission_profile.h"
+#include "scene/model/profiles/profile_radiance.h"
+#include "scene/model/vector_math.h"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// The edge of a polygon that begins at a point, or else the first one.
+std::size_t edge_from(const PolygonLight& light, const Float3& point) {
+    const auto* const found = std::find(light.vertices.begin(), light.vertices.end(), point);
+    return found == light.vertices.end() ? 0 : static_cast<std::size_t>(found - light.vertices.begin());
+}
+
+/// The radiance of each polygon.
+std::vector<Float3> radiances(const ShapeDescription& shape, const std::string& subject,
+                              const std::vector<PolygonLight>& lights, const ProfiledShape& profiled) {
+    double all = 0;
+    double power = 0; // as measured, for a colour with the luminance 1
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        all += area(lights[i]);
+        if (!profiled.radiance.empty())
+            power +=
+                (lights[i].two_sided ? 2 : 1) * std::numbers::pi * area(lights[i]) * profiled.radiance[i];
+    }
+    const Emission& emission = shape.emission;
+    if (profiled.radiance.empty())
+        return std::vector<Float3>(lights.size(), radiance_of(emission, all, subject, shape.origin));
+    const double factor = !emission.power ? 1 : power > 0 ? *emission.power / power : 0;
+    std::vector<Float3> result;
+    for (const double radiance : profiled.radiance) {
+        result.push_back(to_float(factor * radiance * to_double(emission.radiance)));
+        check_radiance(result.back(), subject, shape.origin);
+    }
+    return result;
+}
+
+void warn_of_lost_flux(const ShapeDescription& shape, const EmissionProfile& profile, Warnings& warnings) {
+    constexpr double kWorthMentioning = 0.01;
+    if (profile.luminaire == nullptr || !(profile.lost > kWorthMentioning)) return;
+    const bool is_flat = profile.faces.size() == 1;
+    warnings.add(shape.origin, "flux that a shape cannot emit",
+                 subject_of(shape) + ": it cannot emit " + to_text(0.1 * std::round(1000 * profile.lost)) +
+                     " % of the flux of '" + profile.luminaire->name + "', which " +
+                     (is_flat ? "leaves upward or along the light; a box or a point could"
+                              : "leaves where the shape has no face; a closed box or a point could"));
+}
+
+} // namespace
+
+bool has_profile(const Emission& emission) {
+    return emission.profile.luminaire != nullptr || emission.profile.spread < kWidestSpread;
+}
+
+Emission without_profile(const Emission& emission) {
+    Emission result = emission;
+    result.profile = {};
+    if (emission.profile.luminaire != nullptr && !emission.power)
+        result.power = emission.profile.luminaire->profile.flux() / kLumensPerWatt;
+    return result;
+}
+
+void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
+                           PolygonPartition&& partition, BuiltShape& built) {
+    std::vector<PolygonLight> lights;
+    for (PolygonVertices& polygon : partition.polygons)
+        lights.push_back({0, -1, std::move(polygon), {}, shape.emission.two_sided});
+    const Float3& first = built.positions[built.triangles.front().vertex[0]];
+    std::optional<ProfiledShape> profiled =
+        profile_shape(lights, edge_from(lights.front(), first), shape.emission.profile);
+    built.triangle_light = std::move(partition.polygon_of_triangle);
+    if (profiled) {
+        const std::vector<Float3> radiance = radiances(shape, words.emission, lights, *profiled);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            lights[i].radiance = radiance[i];
+            lights[i].profile = static_cast<std::int32_t>(i);
+        }
+        warn_of_lost_flux(shape, *profiled->emissions.front().profile, built.warnings);
+        built.emission_profiles = std::move(profiled->emissions);
+    } else {
+        built.warnings.add(shape.origin, "profiles of round shapes",
+                           subject_of(shape) + ": it has more than " + std::to_string(kMostLuminousFaces) +
+                               " normals, too many for a profile; it emits as much light alike in all "
+                               "directions");
+        const Float3 radiance =
+            radiance_of(without_profile(shape.emission), area(built), words.emission, shape.origin);
+        for (PolygonLight& light : lights) light.radiance = radiance;
+    }
+    built.lights.of<PolygonLight>() = std::move(lights);
+}
+
+} // namespace nusselt::scene

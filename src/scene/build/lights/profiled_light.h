@@ -1,0 +1,20 @@
+#pragma once
+/// Makes the polygonal lights of a shape whose radiance depends on the direction.
+
+#include "scene/build/build_shape.h"
+#include "scene/build/polygons/polygon_merge.h"
+
+namespace nusselt::scene {
+
+/// Whether an emission has a luminaire or a spread.
+bool has_profile(const Emission& emission);
+
+/// The emission of shapes that cannot have its profile: as much light, alike in all directions.
+Emission without_profile(const Emission& emission);
+
+/// Adds the lights of a shape whose emission has a profile. Shapes with too many normals emit alike in all directions, with a
+/// warning; so does, in a warning, a shape that cannot emit all of the flux of its luminaire.
+void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
+                           PolygonPartition&& partition, BuiltShape& built);
+
+} // namespace nusselt::scene
