@@ -4,14 +4,15 @@
 /// They come from a lattice of cells for each shading point, where cells are the lanes: shading points take turns. All that
 /// follows a sample has shading points as lanes again. A light is described by a type `Cells` with
 ///
-///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon, whose samples have `at`;
-///     Vec3<float> radiance(sample): what the light emits along a sample [W/(sr m^2)];
-///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m].
+///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon;
+///     Vec3<float> radiance(sample, lane): what the light emits along a sample [W/(sr m^2)];
+///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m];
+///     float density(technique, sample): of one of these techniques at a sample of the other one.
 
 #include "render_cpu/kernel/paired_techniques.h"
 #include "render_cpu/kernel/single_lane.h"
 
-#include <nusselt/emission/texture.h>
+#include <nusselt/core/light_sample.h>
 
 #include <new>
 #include <type_traits>
@@ -64,7 +65,7 @@ struct CellDraws {
     alignas(4 * kLanes) float drawn[kLanes]; ///< density of the technique that drew the sample
     alignas(4 * kLanes) float other[kLanes]; ///< that of the other one
 
-    void set(int lane, const TexturedSample<float>& sample, const Vec3<float>& point,
+    void set(int lane, const LightSample<float>& sample, const Vec3<float>& point,
              const Vec3<float>& light) noexcept {
         wi.x[lane] = sample.wi.x;
         wi.y[lane] = sample.wi.y;
@@ -93,8 +94,8 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
     const std::uint32_t bits = lanes.bits();
     for (int lane = 0; lane < kLanes; ++lane) {
         if ((bits >> lane & 1u) == 0 || !techniques.has(lane)) continue;
-        const TexturedSample<float> sample = techniques[lane].sample({x[lane], y[lane]});
-        draws.set(lane, sample, cells.point(sample), cells.radiance(sample));
+        const auto sample = techniques[lane].sample({x[lane], y[lane]});
+        draws.set(lane, sample, cells.point(sample), cells.radiance(sample, lane));
         draws.other[lane] = sample.pdf != 0 ? other_density(lane, sample) : 0.0f;
     }
 }
@@ -104,7 +105,7 @@ template <class Cells, class Shape>
 void add_by_cells(ReflectedLight& reflected, const Cells& cells, const LocalLight<Shape>& light) noexcept {
     const Surface& surface = reflected.surface();
     const auto techniques = cells.diffuse(light.lit);
-    const auto no_other = [](int, const TexturedSample<float>&) { return 0.0f; };
+    const auto no_other = [](int, const auto&) { return 0.0f; };
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         CellDraws draws{};
         draw_cells(cells, techniques, light.lit, reflected.random(light, number, kPointPair), no_other,
@@ -164,9 +165,9 @@ public:
 
 private:
     template <class Technique>
-    static auto density_of(const LaneTechniques<Technique>& techniques) noexcept {
-        return [&](int lane, const TexturedSample<float>& sample) {
-            return techniques.has(lane) ? techniques[lane].pdf_at(sample.at) : 0.0f;
+    auto density_of(const LaneTechniques<Technique>& techniques) const noexcept {
+        return [&](int lane, const auto& sample) {
+            return techniques.has(lane) ? cells_.density(techniques[lane], sample) : 0.0f;
         };
     }
 

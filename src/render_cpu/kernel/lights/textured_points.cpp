@@ -27,10 +27,14 @@ public:
                     return SpecularCells(plane(lane), light(), {single_lane<Ltc<float>>(lobe, lane)});
                 }};
     }
-    Vec3<float> radiance(const TexturedSample<float>& sample) const noexcept {
+    Vec3<float> radiance(const TexturedSample<float>& sample, int /*lane*/) const noexcept {
         return radiance_at(texture_, sample.at);
     }
     Vec3<float> point(const TexturedSample<float>& sample) const noexcept { return sample.p; }
+    template <class Technique>
+    float density(const Technique& technique, const TexturedSample<float>& sample) const noexcept {
+        return technique.pdf_at(sample.at);
+    }
 
 private:
     TexturePlane<float> plane(int lane) const noexcept {
