@@ -78,7 +78,7 @@ struct LightCode {
     scene::Float3 (*emission)(const LightSet& lights, std::int32_t index, const scene::Float3& origin,
                               const scene::Float3& direction) noexcept;
     /// The radiance along a ray that meets nothing; null for kinds that no such ray sees.
-    scene::Float3 (*background)(const LightSet& lights, std::int32_t index,
+    scene::Float3 (*background)(const LightSet& lights, std::int32_t index, const scene::Float3& origin,
                                 const scene::Float3& direction) noexcept = nullptr;
 };
 

@@ -141,7 +141,7 @@ Numbers power(const Scene& scene) {
     return {sum.x, sum.y, sum.z};
 }
 
-/// Lights without extent are numbered by kind.
+/// Light sources are numbered by kind.
 void add_light_sources(const Scene& scene, std::map<std::string, Numbers>& facts) {
     const auto add = [&](const std::string& key, std::initializer_list<Float3> vectors) {
         for (const Float3& v : vectors) append(facts[key], v);
@@ -161,6 +161,12 @@ void add_light_sources(const Scene& scene, std::map<std::string, Numbers>& facts
     i = 0;
     for (const DistantLight& light : scene.lights.of<DistantLight>())
         add("distant " + std::to_string(i++), {light.direction, light.irradiance});
+    i = 0;
+    for (const EnvironmentLight& light : scene.lights.of<EnvironmentLight>()) {
+        facts["environment " + std::to_string(i)] = {light.radiance.x, light.radiance.y, light.radiance.z};
+        for (const Float3& vertex : light.portal) append(facts["portal " + std::to_string(i)], vertex);
+        ++i;
+    }
 }
 
 std::string name_of(FilterKind kind) {

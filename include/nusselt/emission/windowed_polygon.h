@@ -31,7 +31,7 @@ struct WindowSample : LightSample<Real> {
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: shading space; the shading point is the origin, the normal +z. For a lobe, wo is in the xz half-plane.
 /// Edge cases: nothing of the light above the horizon or in the lobe, black window, no area, point beyond or in the plane of
-/// the light, or nearer to it than its extent over kLargestSlope: pdf = 0, measure 0. Black texels are never chosen. Samples in
+/// the light, or nearer to it than 2^-32 (float) of its extent: pdf = 0, measure 0. Black texels are never chosen. Samples in
 /// texels that the horizon or the outline cuts may have pdf = 0: densities then integrate to the share of the others.
 template <class T, int n = 8, class Measure = ProjectedCells<T>>
 class WindowedPolygon {
@@ -154,8 +154,9 @@ private:
         const Vec2<T> to_low = low - foot;
         const Vec2<T> to_high = high - foot;
         const T reach = max(max(abs(to_low.x), abs(to_high.x)), max(abs(to_low.y), abs(to_high.y)));
-        constexpr T kLargest = kLargestSlope<T>;
-        if (!(distance_ * kLargest > reach)) return false;
+        // Squares of slopes have to be in range, before the table cuts them.
+        constexpr T kFarthest = power_of_two<T>(std::numeric_limits<T>::max_exponent / 4);
+        if (!(distance_ * kFarthest > reach)) return false;
 
         // Offsets in the plane are precise from the point next to the foot on.
         const T inverse = T(1) / distance_;

@@ -51,7 +51,7 @@ Vector emitted_and_direct_light(const CameraPacket& packet, const Rays& rays,
     const Vector emitted = emission(packet.job.scene, hits, rays);
     if (packet.layers != nullptr) {
         packet.layers->add_hits(hits, LaneMask::from_bits(on_triangle | on_light), rays.direction);
-        packet.layers->add_emission(hits, emitted, rays.direction);
+        packet.layers->add_emission(hits, emitted, rays.origin, rays.direction);
     }
     if (on_triangle == 0) return emitted;
 

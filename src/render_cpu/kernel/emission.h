@@ -25,13 +25,13 @@ inline std::int32_t light_of_hit(const render_cpu::KernelScene& scene,
 
 /// Calls a function with the number and the radiance of each light that a ray sees which meets nothing.
 template <class Visit>
-void visit_background(const render_cpu::KernelScene& scene, const scene::Float3& direction,
-                      const Visit& visit) noexcept {
+void visit_background(const render_cpu::KernelScene& scene, const scene::Float3& origin,
+                      const scene::Float3& direction, const Visit& visit) noexcept {
     for (std::int32_t k = 0; k < scene.light_set_count; ++k) {
         const render_cpu::LightSet& lights = scene.light_sets[k];
         if (lights.code.background == nullptr) continue;
         for (std::int32_t i = 0; i < lights.count; ++i)
-            visit(lights.first + i, lights.code.background(lights, i, direction));
+            visit(lights.first + i, lights.code.background(lights, i, origin, direction));
     }
 }
 
@@ -63,7 +63,7 @@ inline Vector emission(const render_cpu::KernelScene& scene, const visibility::H
     const Lanes d = store(rays.direction);
     for (int i = 0; i < kLanes; ++i) {
         if (is_background_lit && meets_nothing(hits, i))
-            visit_background(scene, {d.x[i], d.y[i], d.z[i]},
+            visit_background(scene, {o.x[i], o.y[i], o.z[i]}, {d.x[i], d.y[i], d.z[i]},
                              [&](std::int32_t, const scene::Float3& radiance) {
                                  result.x[i] += radiance.x;
                                  result.y[i] += radiance.y;

@@ -90,11 +90,12 @@ void LayerSums::add_to_light(std::int32_t number, int lane, const float (&rgb)[3
 }
 
 void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted,
-                             const Vector& direction) noexcept {
+                             const Vector& origin, const Vector& direction) noexcept {
     const Vector weighted = weight_ * emitted;
     state_.emission.add(weighted);
     if (job_.layers.lights == nullptr) return;
     const Lanes lanes = store(weighted);
+    const Lanes o = store(origin);
     const Lanes d = store(direction);
     float weight[kLanes];
     weight_.store(weight);
@@ -102,11 +103,12 @@ void LayerSums::add_emission(const visibility::HitPacket<kLanes>& hits, const Ve
         const std::int32_t light = light_of_hit(job_.scene, hits, i);
         if (light >= 0) add_to_light(light, i, {lanes.x[i], lanes.y[i], lanes.z[i]});
         if (!meets_nothing(hits, i)) continue;
-        visit_background(
-            job_.scene, {d.x[i], d.y[i], d.z[i]}, [&](std::int32_t number, const scene::Float3& radiance) {
-                add_to_light(number, i,
-                             {weight[i] * radiance.x, weight[i] * radiance.y, weight[i] * radiance.z});
-            });
+        visit_background(job_.scene, {o.x[i], o.y[i], o.z[i]}, {d.x[i], d.y[i], d.z[i]},
+                         [&](std::int32_t number, const scene::Float3& radiance) {
+                             add_to_light(
+                                 number, i,
+                                 {weight[i] * radiance.x, weight[i] * radiance.y, weight[i] * radiance.z});
+                         });
     }
 }
 

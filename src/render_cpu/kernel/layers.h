@@ -70,8 +70,9 @@ public:
     void add_surface(const Surface& surface) noexcept;
 
     /// Adds the radiance of lights that camera rays hit.
+    /// \param origin    of the rays
     /// \param direction of the rays, of any length
-    void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted,
+    void add_emission(const visibility::HitPacket<kLanes>& hits, const Vector& emitted, const Vector& origin,
                       const Vector& direction) noexcept;
 
     /// Adds light that the surfaces reflect.

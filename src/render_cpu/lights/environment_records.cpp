@@ -5,7 +5,9 @@
 #include "scene/model/vector_math.h"
 
 #include <nusselt/emission/environment_map.h>
+#include <nusselt/emission/windowed_light.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <vector>
@@ -29,10 +31,71 @@ struct PreparedMap {
     Map light;
 };
 
+/// A portal for points on one side of it.
+struct PreparedPortal {
+    /// \param frame    its normal leads away from these points
+    /// \param map_size columns and rows of the map, 1 without one
+    /// \param radiance of a direction in world space
+    template <class Radiance>
+    PreparedPortal(const std::vector<Vec3<float>>& vertices, const Frame<float>& frame, int map_size,
+                   const Radiance& radiance) {
+        // Texels of the map and of the table are about as large. More do not fit into caches.
+        const int texels = std::clamp(map_size, 16, 1024);
+        // An interpolated peak of a single texel is two texels wide, so that some lookup finds it.
+        const int lookups = std::max(2 * map_size / texels, 2);
+        sums.resize(static_cast<std::size_t>(RectifiedTable<float>::size(texels, texels)));
+        colour.resize(sums.size());
+        const auto in_frame = [&](const Vec3<float>& direction) {
+            return radiance(frame.to_world(direction));
+        };
+        const auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
+                                                       texels, lookups, sums.data(), colour.data());
+        light = make_portal(frame, vertices.data(), static_cast<int>(vertices.size()), table);
+    }
+
+    std::vector<RectifiedSums> sums;
+    std::vector<Vec3<float>> colour;
+    WindowedLight<float> light{};
+};
+
 struct Environments {
     std::vector<EnvironmentRecord> lights;
     std::deque<PreparedMap> maps;
+    std::deque<PreparedPortal> portals;
 };
+
+/// The frame of a portal, with its first axis along the longest side: rectangles then have both along their sides.
+Frame<float> frame_of(const std::vector<Vec3<float>>& vertices) {
+    Vec3<float> longest{0, 0, 0};
+    Vec3<float> normal{0, 0, 0};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vec3<float> side = vertices[(i + 1) % vertices.size()] - vertices[i];
+        if (dot(side, side) > dot(longest, longest)) longest = side;
+        if (i >= 2) normal += cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
+    }
+    const Vec3<float> n = normalize(normal);
+    const Vec3<float> t = normalize(longest - dot(n, longest) * n);
+    return {t, cross(n, t), n};
+}
+
+void add_portal(const scene::EnvironmentLight& light, const PreparedMap* map, Environments& environments,
+                EnvironmentRecord& record) {
+    std::vector<Vec3<float>> vertices;
+    for (const scene::Float3& vertex : light.portal) vertices.push_back(scene::to_vec(vertex));
+    const auto radiance = [&](const Vec3<float>& w) {
+        if (map == nullptr) return scene::to_vec(light.radiance);
+        const auto along = [&](const scene::Float3& axis) { return dot(scene::to_vec(axis), w); };
+        return map->light.radiance.lookup(
+            Vec3<float>{along(light.x_axis), along(light.y_axis), along(light.z_axis)});
+    };
+    const auto add = [&](const Frame<float>& frame) {
+        const int map_size = map == nullptr ? 1 : map->light.radiance.size;
+        return &environments.portals.emplace_back(vertices, frame, map_size, radiance).light;
+    };
+    const Frame<float> frame = frame_of(vertices);
+    record.portal[0] = add(frame);
+    record.portal[1] = add({frame.t, -frame.b, -frame.n});
+}
 
 } // namespace
 
@@ -42,13 +105,17 @@ std::shared_ptr<const void> make_environment_records(const scene::Scene& scene,
     if (lights == nullptr) return nullptr;
     const auto environments = std::make_shared<Environments>();
     for (const scene::EnvironmentLight& light : lights->lights) {
-        const void* map = nullptr;
+        const PreparedMap* map = nullptr;
         if (light.map >= 0)
-            map = &environments->maps
-                       .emplace_back(*scene.environment_maps.at(static_cast<std::size_t>(light.map)),
-                                     light.radiance)
-                       .light;
-        environments->lights.push_back({light.x_axis, light.y_axis, light.z_axis, light.radiance, map});
+            map = &environments->maps.emplace_back(
+                *scene.environment_maps.at(static_cast<std::size_t>(light.map)), light.radiance);
+        environments->lights.push_back({light.x_axis,
+                                        light.y_axis,
+                                        light.z_axis,
+                                        light.radiance,
+                                        map == nullptr ? nullptr : &map->light,
+                                        {nullptr, nullptr}});
+        if (light.portal.size() > 0) add_portal(light, map, *environments, environments->lights.back());
     }
     return {environments, environments->lights.data()};
 }

@@ -15,6 +15,9 @@ struct EnvironmentRecord {
     scene::Float3 x_axis, y_axis, z_axis; ///< of the map, in world space
     scene::Float3 radiance;               ///< [W/(sr m^2)]; the mean if there is a map
     const void* map; ///< an EnvironmentMap<float, kEnvironmentCells>; null for the same radiance everywhere
+    /// What comes through the portal for points on both sides: a WindowedLight<float> each, or null without a portal. The
+    /// normal of the first one leads to the points of the second one.
+    const void* portal[2];
 };
 
 /// Makes an array of EnvironmentRecord, see LightKernel.

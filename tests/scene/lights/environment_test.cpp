@@ -4,6 +4,9 @@
 
 #include "image/io.h"
 #include "scene/build/lights/environment.h"
+#include "scene/model/content_hash.h"
+#include "scene/model/lights/light_geometry.h"
+#include "scene/model/transform.h"
 
 #include <cmath>
 #include <numbers>
@@ -49,6 +52,11 @@ protected:
 };
 
 const EnvironmentLight& environment(const Scene& scene) { return scene.lights.of<EnvironmentLight>().at(0); }
+std::uint64_t hash_of(const EnvironmentLight& light) {
+    ContentHash hash;
+    LightKind<EnvironmentLight>::hash(light, hash);
+    return hash.value();
+}
 const EnvironmentMapTexels& map_of(const Scene& scene) {
     return *scene.environment_maps.at(static_cast<std::size_t>(environment(scene).map));
 }
@@ -104,6 +112,44 @@ TEST_F(Environments, TransformsTurnTheMap) {
               "scene.pbrt:4: LightSource \"infinite\": the transform is singular or not finite");
 }
 
+/// As in pbrt, whatever the space of the light.
+TEST_F(Environments, PortalsAreInTheWorld) {
+    const std::string portal = " \"point3 portal\" [0 0 1 3 0 1 3 2 1 0 2 1]";
+    for (const std::string type : {"infinite", "sky"}) {
+        const Scene scene = light("Translate 5 5 5\nRotate 90 1 0 0\nLightSource \"" + type + "\"" + portal);
+        EXPECT_TRUE(scene.warnings.empty());
+        ASSERT_EQ(environment(scene).portal.size(), 4u);
+        expect_near(environment(scene).portal[2], {3, 2, 1}, 0);
+        expect_near(environment(scene).z_axis, {0, -1, 0}, 1e-6f);
+    }
+}
+
+TEST_F(Environments, PortalsMoveWithTheirLight) {
+    using Kind = LightKind<EnvironmentLight>;
+    EnvironmentLight light{.radiance = {1, 2, 3}, .portal = {{0, 0, 1}, {3, 0, 1}, {3, 2, 1}, {0, 2, 1}}};
+    const EnvironmentLight original = light;
+    EXPECT_EQ(
+        Kind::describe({&original, 1}, 7),
+        "portal of 6 m^2, radiance 1 2 3 W/(sr m^2), power 18.8496 37.6991 56.5487 W through the portal");
+    Moment moment;
+    Kind::add_moment(light, moment);
+    expect_near(to_float(moment.centroid()), {1.5f, 1, 1}, 1e-6f);
+
+    Kind::transform(light, translation({1, 0, -4}));
+    expect_near(light.portal[2], {4, 2, -3}, 0);
+    EXPECT_TRUE(Kind::is_valid(light));
+    EXPECT_FALSE(Kind::same_shape(light, original));
+    EXPECT_NE(hash_of(light), hash_of(original));
+    EnvironmentLight open = original;
+    open.portal = {};
+    EXPECT_FALSE(Kind::same_shape(open, original));
+    EXPECT_NE(hash_of(open), hash_of(original));
+    EXPECT_EQ(hash_of(EnvironmentLight(original)), hash_of(original));
+
+    Kind::transform(light, scaling({1e-15, 1e-15, 1e-15}));
+    EXPECT_FALSE(Kind::is_valid(light));
+}
+
 TEST_F(Environments, SkiesHaveTheirSunAndTheirGround) {
     const Scene scene = light("LightSource \"sky\" \"vector3 sun\" [0.6 0 0.8] \"rgb ground\" [0.5 0 0]");
     const EnvironmentMapTexels& map = map_of(scene);
@@ -138,10 +184,6 @@ TEST_F(Environments, HostileImages) {
     EXPECT_EQ(warning(odd),
               "scene.pbrt:3: environment: the image 'odd.pfm' is neither square nor twice as wide as high; "
               "it is taken for one in latitudes and longitudes");
-    const Scene portal = light("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]");
-    EXPECT_EQ(warning(portal),
-              "scene.pbrt:3: LightSource \"infinite\": the portal is not used; the light is the same where "
-              "the scene encloses it");
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "render_cpu/lights/environment_records.h"
 
 #include <nusselt/emission/environment_sampling.h>
+#include <nusselt/emission/windowed_polygon.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -27,6 +28,13 @@ template <class T>
 Vec3<T> to_map(const render_cpu::EnvironmentRecord& record, const Vec3<T>& direction) noexcept {
     const auto along = [&](const scene::Float3& axis) { return dot(broadcast<T>(to_vec(axis)), direction); };
     return {along(record.x_axis), along(record.y_axis), along(record.z_axis)};
+}
+
+/// The radiance that arrives from a direction of world space.
+Vec3<float> radiance_towards(const render_cpu::EnvironmentRecord& record,
+                             const Vec3<float>& direction) noexcept {
+    if (record.map == nullptr) return to_vec(record.radiance);
+    return map_of(record).radiance.lookup(to_map(record, direction));
 }
 
 /// All directions. Shadow rays end beyond the scene, from any of its points.
@@ -152,6 +160,65 @@ private:
     float distance_; ///< beyond the scene, from any of its points [m]
 };
 
+/// A sky behind a portal, see cell_samples.h.
+class PortalCells {
+public:
+    using Diffuse = WindowedPolygon<float, render_cpu::kEnvironmentCells>;
+    using Specular = WindowedPolygonLtc<float, render_cpu::kEnvironmentCells>;
+
+    PortalCells(const render_cpu::EnvironmentRecord& record, const Surface& surface, float distance) noexcept
+        : record_(record), surface_(surface), distance_(distance) {
+        const WindowedLight<float>& front = side(0);
+        const Vector to_portal = broadcast<Real>(front.plane.corner) - surface.position;
+        behind_ = dot(broadcast<Real>(front.plane.frame.n), to_portal) > Real(0);
+    }
+
+    LaneTechniques<Diffuse> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, [&](int lane) { return Diffuse(plane(lane), light(lane)); }};
+    }
+    LaneTechniques<Specular> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, [&](int lane) {
+                    return Specular(plane(lane), light(lane), {single_lane<Ltc<float>>(lobe, lane)});
+                }};
+    }
+    Vec3<float> radiance(const WindowSample<float>& sample, int lane) const noexcept {
+        return radiance_towards(record_, single_lane<Frame<float>>(surface_.frame, lane).to_world(sample.wi));
+    }
+    Vec3<float> point(const WindowSample<float>& sample) const noexcept { return distance_ * sample.wi; }
+    template <class Technique>
+    float density(const Technique& technique, const WindowSample<float>& sample) const noexcept {
+        return technique.pdf(sample.wi);
+    }
+
+private:
+    const WindowedLight<float>& side(int k) const noexcept {
+        return *static_cast<const WindowedLight<float>*>(record_.portal[k]);
+    }
+    /// The normal of a portal leads away from the points that it is for.
+    const WindowedLight<float>& light(int lane) const noexcept {
+        return side((behind_.bits() >> lane & 1u) != 0 ? 0 : 1);
+    }
+    WindowPlane<float> plane(int lane) const noexcept {
+        return to_shading_space(light(lane).plane, single_lane<Vec3<float>>(surface_.position, lane),
+                                single_lane<Frame<float>>(surface_.frame, lane));
+    }
+
+    const render_cpu::EnvironmentRecord& record_;
+    const Surface& surface_;
+    float distance_; ///< beyond the scene, from any of its points [m]
+    LaneMask behind_;
+};
+
+template <void (*add)(ReflectedLight&, const PortalCells&, const LocalLight<Sky>&) noexcept>
+void add_through_portal(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                        std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = local_sky(reflected, lights, index, {Real(1), Real(1), Real(1)});
+    if (!any(light.lit)) return;
+    add(reflected, PortalCells(environment_record(lights, index), reflected.surface(), light.shape.distance),
+        light);
+}
+
 template <void (*add)(ReflectedLight&, const SkyCells&, const LocalLight<Sky>&) noexcept>
 void add_mapped(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                 std::int32_t index) noexcept {
@@ -167,17 +234,22 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     if (job.technique == render::Technique::ltc_analytic) {
         add[0] = &add_uniform_analytically;
         add[1] = &add_mapped<&add_cell_integrals>;
+        add[2] = &add_through_portal<&add_cell_integrals>;
     } else if (job.strategies == render::Strategies::diffuse_ltc) {
         add[0] = &add_by_pair<UniformSky, SkyPair>;
         add[1] = &add_mapped<&add_by_cell_pair>;
+        add[2] = &add_through_portal<&add_by_cell_pair>;
     } else {
         add[0] = &add_uniform_by_cosine;
         add[1] = &add_mapped<&add_by_cells>;
+        add[2] = &add_through_portal<&add_by_cells>;
     }
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
-    return environment_record(lights, index).map == nullptr ? 0 : 1;
+    const render_cpu::EnvironmentRecord& record = environment_record(lights, index);
+    if (record.portal[0] != nullptr) return 2;
+    return record.map == nullptr ? 0 : 1;
 }
 
 /// Rays do not hit it.
@@ -186,11 +258,25 @@ scene::Float3 emission(const render_cpu::LightSet& /*lights*/, std::int32_t /*in
     return {0, 0, 0};
 }
 
-scene::Float3 background(const render_cpu::LightSet& lights, std::int32_t index,
+/// Whether a ray leaves through a portal.
+bool leaves_through(const WindowedLight<float>& portal, const Vec3<float>& origin,
+                    const Vec3<float>& direction) noexcept {
+    const Frame<float>& frame = portal.plane.frame;
+    const Vec3<float> to_corner = portal.plane.corner - origin;
+    const float along = dot(frame.n, direction);
+    const float distance = dot(frame.n, to_corner) / along;
+    if (!(distance > 0)) return false;
+    const Vec3<float> hit = frame.to_local(distance * direction - to_corner);
+    const Vec2<float> at{hit.x, hit.y};
+    return portal.outline.contains(at, at);
+}
+
+scene::Float3 background(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,
                          const scene::Float3& direction) noexcept {
     const render_cpu::EnvironmentRecord& record = environment_record(lights, index);
-    if (record.map == nullptr) return record.radiance;
-    const Vec3<float> radiance = map_of(record).radiance.lookup(to_map(record, normalize(to_vec(direction))));
+    const auto* const portal = static_cast<const WindowedLight<float>*>(record.portal[0]);
+    if (portal != nullptr && !leaves_through(*portal, to_vec(origin), to_vec(direction))) return {0, 0, 0};
+    const Vec3<float> radiance = radiance_towards(record, normalize(to_vec(direction)));
     return {radiance.x, radiance.y, radiance.z};
 }
 

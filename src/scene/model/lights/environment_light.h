@@ -2,6 +2,7 @@
 /// Light from all directions, infinitely far away: skies.
 
 #include "scene/model/lights/light_list.h"
+#include "scene/model/lights/polygon_light.h"
 
 #include <memory>
 #include <string>
@@ -19,7 +20,7 @@ struct EnvironmentMapTexels {
 };
 
 /// A sky around the scene. Cameras see it where they see nothing else. It has the radiance `radiance` * t / mean where the map
-/// has a texel t, per channel.
+/// has a texel t, per channel. With a portal, only what passes through the portal arrives, at cameras as at surfaces.
 struct EnvironmentLight {
     std::uint32_t emitter = 0;   ///< index into Scene::emitters
     std::int32_t map = -1;       ///< index into Scene::environment_maps, -1 for the same radiance everywhere
@@ -28,6 +29,8 @@ struct EnvironmentLight {
     Float3 x_axis = {1, 0, 0};
     Float3 y_axis = {0, 1, 0};
     Float3 z_axis = {0, 0, 1};
+    /// A convex planar polygon that light passes in both directions; empty if there is none.
+    PolygonVertices portal = {};
 };
 
 template <>
@@ -41,9 +44,9 @@ struct LightKind<EnvironmentLight> {
     static constexpr auto kEmission = &EnvironmentLight::radiance;
     static void add_to(const EnvironmentLight& /*light*/, Bounds& /*bounds*/) {}
     static void hash(const EnvironmentLight& light, ContentHash& hash);
-    /// What enters a sphere of the scene's radius.
+    /// What enters a sphere of the scene's radius, or passes the portal in one direction if the radiance is the same everywhere.
     static Double3 flux_per_emission(const EnvironmentLight& light, double scene_radius);
-    /// It is everywhere; the origin stands for its place.
+    /// It is where its portal is. Without one, it is everywhere, and the origin stands for its place.
     static void add_moment(const EnvironmentLight& light, Moment& moment);
     static bool is_valid(const EnvironmentLight& light);
     static void transform(EnvironmentLight& light, const Transform& transform);

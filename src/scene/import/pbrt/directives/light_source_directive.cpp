@@ -2,6 +2,7 @@
 
 #include "scene/build/lights/emission.h"
 #include "scene/colour/colour_space.h"
+#include "scene/model/polygon.h"
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"
 
@@ -52,6 +53,7 @@ private:
     Float3 direction(const Float3& from, const Float3& to) const;
     LightFrame frame() const;
     EnvironmentLight environment_in_frame(const Float3& radiance);
+    PolygonVertices portal() const;
     void warn_of_skew(const LightFrame& frame) const;
     /// The image as a request for a texture; -1 if there is none.
     int image(int channels, TextureWrap wrap);
@@ -241,16 +243,27 @@ EnvironmentLight LightSourceReader::environment_in_frame(const Float3& radiance)
     light.x_axis = axes.x;
     light.y_axis = axes.y;
     light.z_axis = axes.z;
+    light.portal = portal();
+    if (!LightKind<EnvironmentLight>::is_valid(light)) fail("portal", "portal: it is too small");
     return light;
+}
+
+/// As in pbrt v4, in world space. There it must be a rectangle.
+PolygonVertices LightSourceReader::portal() const {
+    const std::vector<Float3> points = is_v3() ? std::vector<Float3>() : parameters_.points("portal");
+    if (points.empty()) return {};
+    std::vector<Double3> corners;
+    for (const Float3& p : points) {
+        if (!is_valid_coordinate(p)) fail("portal", "portal: its points must be finite and within 1e15 m");
+        corners.push_back(to_double(p));
+    }
+    if (const auto defect = find_polygon_defect(corners)) fail("portal", "portal: " + *defect);
+    return without_collinear_vertices(points);
 }
 
 EnvironmentLight LightSourceReader::environment() {
     EnvironmentLight light = environment_in_frame(emission("L", kRadiance));
     light.map = image(3, TextureWrap::repeat);
-    if (!parameters_.points("portal").empty())
-        warnings_.add(parameters_.location_of("portal"),
-                      subject() +
-                          ": the portal is not used; the light is the same where the scene encloses it");
     return light;
 }
 

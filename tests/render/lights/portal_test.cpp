@@ -1,0 +1,297 @@
+// Portals of environments: what comes through them on a floor and to cameras, whichever way it is sampled.
+
+#include "scenes.h"
+
+#include "scene/model/vector_math.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace nusselt::render_test {
+namespace {
+
+using scene::Double3;
+using scene::EnvironmentLight;
+using scene::EnvironmentMapTexels;
+
+constexpr int kSize = 16;
+constexpr int kMapSize = 128;
+constexpr Double3 kToSun = {0.36, 0.48, 0.8};
+
+/// Shapes in the plane z = 1 above the floor.
+const scene::PolygonVertices kRectangle = {{0, -0.4f, 1}, {0.8f, -0.4f, 1}, {0.8f, 0.9f, 1}, {0, 0.9f, 1}};
+const scene::PolygonVertices kPentagon = {
+    {0.1f, -0.3f, 1}, {0.7f, -0.4f, 1}, {1, 0.3f, 1}, {0.4f, 1, 1}, {-0.1f, 0.5f, 1}};
+
+/// The radiance of the map as a function. The map itself is interpolated between texels.
+double radiance_towards(const Double3& d) {
+    return 0.3 + 0.2 * d.x + 0.1 * d.z + 20 * std::exp(90 * (dot(d, kToSun) - 1));
+}
+
+/// The unit direction of a point of the square (Clarberg 2008), by the formulas of the paper.
+Double3 direction_at(double x, double y) {
+    const double u = 2 * x - 1;
+    const double v = 2 * y - 1;
+    const double d = 1 - std::fabs(u) - std::fabs(v);
+    const double r = 1 - std::fabs(d);
+    const double angle = r == 0 ? 0 : std::numbers::pi / 4 * ((std::fabs(v) - std::fabs(u)) / r + 1);
+    const double across = r * std::sqrt(2 - r * r);
+    return {std::copysign(across * std::cos(angle), u), std::copysign(across * std::sin(angle), v),
+            std::copysign(1 - r * r, d)};
+}
+
+std::shared_ptr<const EnvironmentMapTexels> make_map() {
+    EnvironmentMapTexels map{"map", kMapSize, {}, {}};
+    double sum = 0;
+    for (int j = 0; j < kMapSize; ++j) {
+        for (int i = 0; i < kMapSize; ++i) {
+            const double l = radiance_towards(direction_at((i + 0.5) / kMapSize, (j + 0.5) / kMapSize));
+            map.texels.push_back({static_cast<float>(2 * l), static_cast<float>(l), static_cast<float>(l)});
+            sum += l / (kMapSize * kMapSize);
+        }
+    }
+    map.mean = {static_cast<float>(2 * sum), static_cast<float>(sum), static_cast<float>(sum)};
+    return std::make_shared<const EnvironmentMapTexels>(std::move(map));
+}
+
+/// A floor, all pixels of which show its point at the origin, below a portal.
+scene::Scene make_scene(const scene::PolygonVertices& portal, bool has_map) {
+    scene::Scene scene = make_floor(kSize);
+    set_camera(scene, {-0.2f, -0.3f, 0.6f}, {0, 0, 0}, {0, 1, 0}, 1e-4, kSize, kSize);
+    scene.emitters.push_back({"sky"});
+    EnvironmentLight light{.radiance = {2, 1, 1}, .portal = portal};
+    if (has_map) {
+        scene.environment_maps = {make_map()};
+        light.map = 0;
+        light.radiance = scene.environment_maps[0]->mean;
+    }
+    scene.lights.of<EnvironmentLight>() = {light};
+    return scene;
+}
+
+render::RenderSettings centred(int samples) {
+    render::RenderSettings settings;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.sample_order = render::SampleOrder::independent;
+    settings.samples = samples;
+    settings.camera_rays = 1;
+    return settings;
+}
+
+struct Mean {
+    double value = 0, error = 0, deviation = 0;
+};
+
+Mean render_green(const scene::Scene& scene, const render::RenderSettings& settings) {
+    const image::Image image = render_cpu::Renderer(scene, 2).render(settings, base::choose_isa()).image;
+    std::vector<double> values;
+    for (std::size_t i = 1; i < image.pixels.size(); i += 3) values.push_back(image.pixels[i]);
+    Mean mean;
+    const auto count = static_cast<double>(values.size());
+    for (const double value : values) mean.value += value / count;
+    for (const double value : values)
+        mean.deviation += (value - mean.value) * (value - mean.value) / (count - 1);
+    mean.deviation = std::sqrt(mean.deviation);
+    mean.error = mean.deviation / std::sqrt(count);
+    return mean;
+}
+
+/// What the origin reflects of light that passes a horizontal polygon at a height of one: the midpoint rule over its area.
+template <class Radiance>
+double reflected(const scene::PolygonVertices& portal, const Radiance& radiance) {
+    // Sides of the rectangle are lines of the grid.
+    constexpr double kStep = 0.0025;
+    double sum = 0;
+    for (int j = 0; j < 640; ++j) {
+        for (int i = 0; i < 480; ++i) {
+            const Double3 p = {-0.2 + kStep * (i + 0.5), -0.5 + kStep * (j + 0.5), 1};
+            bool is_inside = true;
+            for (std::size_t k = 0; k < portal.size(); ++k) {
+                const Float3& a = portal[k];
+                const Float3& b = portal[(k + 1) % portal.size()];
+                is_inside = is_inside && (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= 0;
+            }
+            const double squared = dot(p, p);
+            if (is_inside) sum += kStep * kStep * radiance(normalized(p)) / (squared * squared);
+        }
+    }
+    return kFloorAlbedo / std::numbers::pi * sum;
+}
+
+scene::PolygonVertices reversed(const scene::PolygonVertices& portal) {
+    std::vector<Float3> vertices(portal.begin(), portal.end());
+    std::reverse(vertices.begin(), vertices.end());
+    return vertices;
+}
+
+scene::PolygonVertices with_side_moved(scene::PolygonVertices portal, float distance) {
+    for (Float3& vertex : portal) vertex.y += vertex.y < 0 ? distance : 0;
+    return portal;
+}
+
+TEST(UniformPortal, LightsAFloorWithoutNoise) {
+    for (const scene::PolygonVertices& portal : {kRectangle, kPentagon}) {
+        const double expected = reflected(portal, [](const Double3&) { return 1.0; });
+        for (const auto& vertices : {portal, reversed(portal)}) {
+            for (const auto technique :
+                 {render::Technique::projected_solid_angle, render::Technique::ltc_analytic}) {
+                render::RenderSettings settings = centred(1);
+                settings.technique = technique;
+                const Mean mean = render_green(make_scene(vertices, false), settings);
+                EXPECT_NEAR(mean.value, expected, 2e-3 * expected);
+                EXPECT_LT(mean.deviation, 1e-4 * expected);
+            }
+        }
+    }
+}
+
+TEST(PortalWithMap, LightsAFloorLikeQuadrature) {
+    for (const scene::PolygonVertices& portal : {kRectangle, kPentagon}) {
+        const double expected = reflected(portal, radiance_towards);
+        for (const auto& vertices : {portal, reversed(portal)}) {
+            const Mean mean = render_green(make_scene(vertices, true), centred(64));
+            // Interpolation flattens the sun a little.
+            const double tolerance = 5e-3 * expected;
+            EXPECT_NEAR(mean.value, expected, 5 * mean.error + tolerance);
+            std::printf("noise of one sample: %.3f\n", 8 * mean.deviation / expected);
+            EXPECT_LT(8 * mean.deviation, 0.2 * expected);
+            // The test of the test: one side of the portal is 8 cm off.
+            const Mean wrong = render_green(make_scene(with_side_moved(vertices, 0.08f), true), centred(64));
+            EXPECT_GT(std::fabs(wrong.value - expected), 5 * wrong.error + tolerance);
+        }
+    }
+}
+
+/// The integrals of cells, with their mean radiance.
+TEST(PortalWithMap, AnalyticShadingHasNoNoise) {
+    const double expected = reflected(kRectangle, radiance_towards);
+    render::RenderSettings settings = centred(1);
+    settings.technique = render::Technique::ltc_analytic;
+    const Mean mean = render_green(make_scene(kRectangle, true), settings);
+    EXPECT_NEAR(mean.value, expected, 0.04 * expected);
+    EXPECT_LT(mean.deviation, 1e-4 * expected);
+}
+
+/// The same light as without a portal, if there is a wall with a hole. There, the noise is that of shadows.
+TEST(PortalWithMap, IsAWallWithAHole) {
+    const auto with_wall = [&](const scene::PolygonVertices& portal) {
+        scene::Scene scene = make_scene(portal, true);
+        const auto add = [&](float x0, float y0, float x1, float y1) {
+            add_quad(scene, {Float3{x0, y0, 1}, Float3{x1, y0, 1}, Float3{x1, y1, 1}, Float3{x0, y1, 1}}, 0);
+        };
+        add(-40, -40, 0, 40);
+        add(0.8f, -40, 40, 40);
+        add(0, -40, 0.8f, -0.4f);
+        add(0, 0.9f, 0.8f, 40);
+        set_radius(scene);
+        return scene;
+    };
+    const Mean with = render_green(with_wall(kRectangle), centred(64));
+    const Mean without = render_green(with_wall({}), centred(1024));
+    EXPECT_NEAR(with.value, without.value, 5 * std::hypot(with.error, without.error));
+    // Per sample: there are 16 times as many of them without a portal.
+    const double gain = 4 * without.deviation / with.deviation;
+    std::printf("noise without a portal over noise with it: %.1f\n", gain);
+    EXPECT_GT(gain, 4);
+    // The test of the test: a portal that is 3 % too narrow.
+    scene::PolygonVertices narrow = kRectangle;
+    narrow[1].x = narrow[2].x = 0.776f;
+    const Mean wrong = render_green(with_wall(narrow), centred(64));
+    EXPECT_GT(std::fabs(wrong.value - without.value), 5 * std::hypot(wrong.error, without.error));
+    // What is between the floor and the portal, and what is beyond it, makes shadows.
+    for (const float height : {0.5f, 5.0f}) {
+        scene::Scene scene = make_scene(kRectangle, true);
+        add_quad(scene,
+                 {Float3{-9, -9, height}, Float3{9, -9, height}, Float3{9, 9, height}, Float3{-9, 9, height}},
+                 0);
+        set_camera(scene, {-0.02f, -0.03f, 0.06f}, {0, 0, 0}, {0, 1, 0}, 1e-4, kSize, kSize);
+        set_radius(scene);
+        EXPECT_EQ(render_green(scene, centred(1)).value, 0);
+    }
+}
+
+/// All strategies on a glossy floor agree with samples by the cosine, which know no lobe.
+TEST(PortalWithMap, AllStrategiesHaveTheSameExpectation) {
+    for (const bool has_map : {false, true}) {
+        scene::Scene scene = make_scene(kRectangle, has_map);
+        scene.materials[0].model = scene::BrdfModel::frostbite;
+        scene.materials[0].f0 = {0.2f, 0.2f, 0.2f};
+        scene.materials[0].roughness = 0.5f;
+        const Mean reference = render_green(scene, centred(512));
+        render::RenderSettings settings = centred(64);
+        settings.strategies = render::Strategies::diffuse_ltc;
+        for (const auto mis : render::kMisHeuristics) {
+            settings.mis = mis;
+            const Mean mean = render_green(scene, settings);
+            EXPECT_NEAR(mean.value, reference.value, 5 * std::hypot(mean.error, reference.error))
+                << render::name_of(mis) << ", map: " << has_map;
+        }
+        // The test of the test: a tenth of the light is missing.
+        scene.lights.of<EnvironmentLight>()[0].radiance.y *= 0.9f;
+        const Mean mean = render_green(scene, settings);
+        EXPECT_GT(std::fabs(mean.value - reference.value), 5 * std::hypot(mean.error, reference.error));
+    }
+}
+
+TEST(PortalWithMap, CamerasSeeTheSkyThroughIt) {
+    struct View {
+        Float3 eye, target;
+        bool is_lit;
+    };
+    // Through the portal from below and from above, beside it, away from it, along its plane, and within this plane.
+    const View views[] = {
+        {{0, 0, 0.5f}, {0.2f, 0.3f, 1}, true},       {{0.3f, 0.2f, 2}, {0.1f, 0.4f, 1}, true},
+        {{0, 0, 0.5f}, {-0.1f, 0.3f, 1}, false},     {{0.2f, 0.2f, 1.5f}, {0.2f, 0.3f, 2}, false},
+        {{-9, 0.2f, 1.5f}, {-8, 0.2f, 1.5f}, false}, {{-9, 0.2f, 1}, {-8, 0.2f, 1}, false}};
+    for (const bool has_map : {false, true}) {
+        scene::Scene scene = make_scene(kRectangle, has_map);
+        // Only what cameras see behind everything.
+        scene.triangles.clear();
+        scene.triangle_material.clear();
+        scene.triangle_light.clear();
+        scene.objects.clear();
+        scene.instances.clear();
+        for (const View& view : views) {
+            set_camera(scene, view.eye, view.target, {0.1f, 1, 0.2f}, 1e-4, 1, 1);
+            render::RenderSettings settings = centred(1);
+            settings.layers = {render::LayerKind::lights};
+            const auto result = render_cpu::Renderer(scene, 1).render(settings, base::choose_isa());
+            const Double3 d = normalized(to_double(view.target) - to_double(view.eye));
+            const double expected = !view.is_lit ? 0 : has_map ? radiance_towards(d) : 1;
+            EXPECT_NEAR(result.image.pixels[1], expected, 0.02 * expected) << view.eye.z << " " << has_map;
+            ASSERT_EQ(result.layers.size(), 1u);
+            EXPECT_FLOAT_EQ(result.layers[0].data[1], result.image.pixels[1]);
+        }
+    }
+}
+
+/// No surface can be lit from points in the plane of the portal, or by a portal that is a needle.
+TEST(PortalWithMap, HostilePortalsGiveFiniteImages) {
+    const scene::PolygonVertices portals[] = {
+        {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+        {{-1e9f, -1e9f, 1}, {1e9f, -1e9f, 1}, {1e9f, 1e9f, 1}, {-1e9f, 1e9f, 1}},
+        {{0, 0, 1}, {1e-4f, 0, 1}, {1e-4f, 1e-4f, 1}, {0, 1e-4f, 1}},
+        {{0, 0, 1}, {3, 0, 1}, {3, 1e-6f, 1}, {0, 1e-6f, 1}},
+        {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}},
+        {{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}};
+    for (const auto& portal : portals) {
+        for (const auto strategies : {render::Strategies::diffuse, render::Strategies::diffuse_ltc}) {
+            render::RenderSettings settings = centred(2);
+            settings.strategies = strategies;
+            const Mean mean = render_green(make_scene(portal, true), settings);
+            EXPECT_TRUE(std::isfinite(mean.value) && mean.value >= 0);
+        }
+    }
+    // Next to all of the hemisphere.
+    const Mean open = render_green(make_scene(portals[1], false), centred(4));
+    EXPECT_NEAR(open.value, kFloorAlbedo, 1e-4);
+}
+
+} // namespace
+} // namespace nusselt::render_test
