@@ -10,61 +10,11 @@
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/emission/cell_lanes.h>
-#include <nusselt/emission/texture.h>
+#include <nusselt/emission/line_profile.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-/// Radiance along a line, prepared once for all shading points.
-/// \tparam n the largest number of texels.
-template <class T, int n = 64>
-struct LineProfile {
-    static constexpr int kMostTexels = n;
-    static constexpr int kSlots = (n + 1 + 7) / 8 * 8; ///< for cells, in whole registers
-
-    int cells;                    ///< one more than there are texels
-    T border[kSlots + 1];         ///< where cells begin, from 0 to 1; 1 for all further ones
-    T value[kSlots + 1];          ///< radiance at borders, averaged over channels
-    Vec3<T> radiance[kSlots + 1]; ///< the same per channel [W/(sr m^2)]
-
-    /// Radiance at a point. \param x in [0, 1]
-    NUSSELT_HD Vec3<T> lookup(const T& x) const noexcept {
-        const int k = cell_at(x);
-        const T share = (x - border[k]) / (border[k + 1] - border[k]);
-        return (T(1) - share) * radiance[k] + share * radiance[k + 1];
-    }
-
-    /// The cell at a point. \param x in [0, 1]
-    NUSSELT_HD int cell_at(const T& x) const noexcept {
-        return detail::clamp_index(detail::floor_to_int(x * static_cast<T>(cells - 1) + T(0.5)), cells);
-    }
-
-    /// The mean along the line.
-    NUSSELT_HD Vec3<T> mean() const noexcept {
-        Vec3<T> sum{T(0), T(0), T(0)};
-        for (int k = 0; k < cells; ++k)
-            sum += (T(0.5) * (border[k + 1] - border[k])) * (radiance[k] + radiance[k + 1]);
-        return sum;
-    }
-};
-
-/// \param texel radiance of parts of the line of equal length, from its start to its end [W/(sr m^2)]: finite and not
-///              negative. Radiance is interpolated between their middles and constant beyond the first and the last one.
-/// \param count 1 to n.
-template <int n = 64, class T>
-NUSSELT_HD inline LineProfile<T, n> make_line_profile(const Vec3<T>* texel, int count) noexcept {
-    LineProfile<T, n> profile{};
-    profile.cells = count + 1;
-    for (int k = 0; k <= profile.kSlots; ++k) {
-        profile.border[k] = k == 0      ? T(0)
-                            : k > count ? T(1)
-                                        : (static_cast<T>(k) - T(0.5)) / static_cast<T>(count);
-        profile.radiance[k] = texel[detail::clamp_index(k - 1, count)];
-        profile.value[k] = mean_of_channels(profile.radiance[k]);
-    }
-    return profile;
-}
 
 /// A sample on a light whose radiance varies along it.
 template <class Real>

@@ -168,7 +168,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Emitter> emitters;
     Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
-    std::vector<TexturedEmission> emission_textures; ///< of polygonal lights
+    std::vector<TexturedEmission> emission_textures; ///< of polygons, tubes and lines
     std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps;
     Camera camera;
     Film film;

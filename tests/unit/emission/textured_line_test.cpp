@@ -272,6 +272,7 @@ TYPED_TEST(TexturedLineTest, FloatAgreesWithDouble) {
         for (int k = 0; k <= profile.kSlots; ++k) {
             profile.border[k] = static_cast<float>(named.profile.border[k]);
             profile.value[k] = static_cast<float>(named.profile.value[k]);
+            profile.before[k] = static_cast<float>(named.profile.before[k]);
             profile.radiance[k] = nusselt::broadcast<float>(named.profile.radiance[k]);
         }
         const LineSegment<float> light{nusselt::broadcast<float>(line.p0), nusselt::broadcast<float>(line.s),
@@ -382,8 +383,10 @@ TEST(LineProfile, InterpolatesBetweenTexels) {
         ASSERT_NEAR(profile.lookup(x).x, expected.x, 1e-12) << x;
         ASSERT_NEAR(profile.lookup(x).y, expected.y, 1e-12) << x;
     }
-    EXPECT_NEAR(profile.mean().z, mean.z, 1e-12);
-    EXPECT_NEAR(profile.mean().y, mean.y, 1e-12);
+    EXPECT_NEAR(profile.below(1), mean_of_channels(mean), 1e-12);
+    double sum = 0;
+    for (int k = 0; k < 3000; ++k) sum += mean_of_channels(profile.lookup((k + 0.5) / 10000)) / 10000;
+    EXPECT_NEAR(profile.below(0.3), sum, 1e-6);
 }
 
 } // namespace

@@ -1,10 +1,11 @@
 #pragma once
 /// Samples in proportion to radiance times a measure, for lights whose radiance varies.
 ///
-/// They come from a lattice of cells for each shading point, where cells are the lanes: shading points take turns. All that
+/// They come from cells for each shading point, where cells are the lanes: shading points take turns. All that
 /// follows a sample has shading points as lanes again. A light is described by a type `Cells` with
 ///
-///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon, whose samples have `at`;
+///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon or TexturedLine, whose
+///                         samples have `at`;
 ///     Vec3<float> radiance(sample): what the light emits along a sample [W/(sr m^2)];
 ///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m].
 
@@ -64,7 +65,7 @@ struct CellDraws {
     alignas(4 * kLanes) float drawn[kLanes]; ///< density of the technique that drew the sample
     alignas(4 * kLanes) float other[kLanes]; ///< that of the other one
 
-    void set(int lane, const TexturedSample<float>& sample, const Vec3<float>& point,
+    void set(int lane, const LightSample<float>& sample, const Vec3<float>& point,
              const Vec3<float>& light) noexcept {
         wi.x[lane] = sample.wi.x;
         wi.y[lane] = sample.wi.y;
@@ -81,6 +82,15 @@ struct CellDraws {
     LightSample<Real> sample() const noexcept { return {load(wi), Real::load(drawn), load(p)}; }
 };
 
+/// A sample of a technique that takes two random numbers, or one.
+template <class Technique>
+auto sample_of(const Technique& technique, const Vec2<float>& u) noexcept {
+    if constexpr (requires { technique.sample(u); })
+        return technique.sample(u);
+    else
+        return technique.sample(u.x);
+}
+
 /// Draws from the techniques of some lanes.
 /// \param other_density density at a sample of the other technique of a pair, function of lane and sample
 template <class Cells, class Technique, class OtherDensity>
@@ -93,7 +103,7 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
     const std::uint32_t bits = lanes.bits();
     for (int lane = 0; lane < kLanes; ++lane) {
         if ((bits >> lane & 1u) == 0 || !techniques.has(lane)) continue;
-        const TexturedSample<float> sample = techniques[lane].sample({x[lane], y[lane]});
+        const auto sample = sample_of(techniques[lane], {x[lane], y[lane]});
         draws.set(lane, sample, cells.point(sample), cells.radiance(sample));
         draws.other[lane] = sample.pdf != 0 ? other_density(lane, sample) : 0.0f;
     }
@@ -104,7 +114,7 @@ template <class Cells, class Shape>
 void add_by_cells(ReflectedLight& reflected, const Cells& cells, const LocalLight<Shape>& light) noexcept {
     const Surface& surface = reflected.surface();
     const auto techniques = cells.diffuse(light.lit);
-    const auto no_other = [](int, const TexturedSample<float>&) { return 0.0f; };
+    const auto no_other = [](int, const LightSample<float>&) { return 0.0f; };
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         CellDraws draws{};
         draw_cells(cells, techniques, light.lit, reflected.random(light, number, kPointPair), no_other,
@@ -165,7 +175,7 @@ public:
 private:
     template <class Technique>
     static auto density_of(const LaneTechniques<Technique>& techniques) noexcept {
-        return [&](int lane, const TexturedSample<float>& sample) {
+        return [&](int lane, const auto& sample) {
             return techniques.has(lane) ? techniques[lane].pdf_at(sample.at) : 0.0f;
         };
     }

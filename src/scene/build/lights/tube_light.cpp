@@ -1,5 +1,6 @@
 #include "scene/build/lights/tube_light.h"
 
+#include "scene/build/lights/textured_tube.h"
 #include "scene/model/vector_math.h"
 
 #include <cmath>
@@ -93,11 +94,12 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    Emission outwards = without_texture(shape.emission);
+    if (shape.emission.texture != nullptr) {
+        add_textured_tube(shape, words, light, built);
+        return built;
+    }
+    Emission outwards = shape.emission;
     outwards.two_sided = false;
-    if (shape.emission.texture != nullptr)
-        built.warnings.add(shape.origin, "texture of tube",
-                           subject_of(shape) + ": the image is replaced by its mean colour on tubes");
     light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
     built.lights.of<LineLight>() = {light};
     return built;
