@@ -47,7 +47,7 @@ struct NamedProfile {
 const std::vector<NamedProfile>& profiles() {
     static const std::vector<NamedProfile> list = {
         {"gradient", profile_of<double>(16, [](double x) { return 0.1 + x * x; }), 0.4},
-        {"half", profile_of<double>(8, [](double x) { return x > 0.75; }), 0.6},
+        {"stripes", profile_of<double>(24, [](double x) { return static_cast<int>(6 * x) % 2 + 0.1; }), 0.7},
         {"dots", profile_of<double>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; }), 0.7},
     };
     return list;
