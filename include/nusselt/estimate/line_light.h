@@ -104,38 +104,19 @@ public:
         if constexpr (AlongLines::kIsExact) {
             return analytic(offset, parts);
         } else {
-            const Line line = line_at(offset);
-            Real diffuse = Real(0);
-            Real specular = Real(0);
-            Choice choice(u);
-            for (int k = 0; k < parts.count(); ++k) {
-                if (!any(parts[k].begin < parts[k].end)) continue;
-                const Interval<Real> above = line.cosine.clipped(finite(parts[k]));
-                const Real by_cosine = line.cosine.integral(above);
-                diffuse = diffuse + by_cosine;
-                choice.offer(cosine_weight_ * by_cosine, above, mask_t<Real>(false));
-                if (!any(is_glossy_)) continue;
-                const Interval<Real> lit = line.lobe.clipped(above);
-                const Real by_lobe = line.lobe.integral(lit);
-                specular = specular + by_lobe;
-                choice.offer(lobe_weight_ * by_lobe, lit, mask_t<Real>(true));
-            }
-            const BrdfComponents<Real> expected{diffuse * diffuse_albedo_,
-                                                specular * surface_.specular_albedo};
-            if (!any(choice.total > Real(0))) return expected;
-            const Vec3<Real> wi = direction_to(line, choice);
-            const Real cosine = max(wi.z, Real(0));
-            const Real cosine_density = Real(1 / kPi<scalar_t<Real>>) * cosine;
-            const Real lobe_density = select(is_glossy_, surface_.lobe.density(wi), Real(0));
-            // The change from directions to points of the line is the same in the integrand and in the density.
-            const Real density = fma(cosine_weight_, cosine_density, lobe_weight_ * lobe_density);
-            const auto drawn = (choice.total > Real(0)) & (density > Real(0));
-            const Real factor = select(drawn, choice.total / select(drawn, density, Real(1)), Real(0));
-            const BrdfComponents<Real> brdf = surface_.brdf.eval_components(wi);
-            return {fma(factor, cosine * brdf.diffuse - cosine_density * diffuse_albedo_, expected.diffuse),
-                    fma(factor, cosine * brdf.specular - lobe_density * surface_.specular_albedo,
-                        expected.specular)};
+            const auto uniform = [](const Real&) { return Vec3<Real>{Real(1), Real(1), Real(1)}; };
+            return estimate<1>(offset, parts, u, uniform);
         }
+    }
+
+    /// The same for a light whose radiance varies. Several points of the visible parts, stratified along the line, tell how bright
+    /// these are: their number divides the noise, and they need no shadow rays.
+    /// \tparam kPoints  at least 1.
+    /// \param radiance  over the mean of the light: function of the coordinate along the line [m], the result has three channels.
+    template <int kPoints, class Radiance>
+    NUSSELT_HD BrdfComponents<Real> textured(const Real& offset, const VisibleParts<Real>& parts,
+                                             const Real& u, const Radiance& radiance) const noexcept {
+        return estimate<kPoints>(offset, parts, u, radiance);
     }
 
     /// The peak of the fitted lobe; diffuse surfaces have none.
@@ -154,8 +135,6 @@ private:
 
     /// A part of a line and a lobe, out of many that become known one after the other, in proportion to their weights.
     struct Choice {
-        NUSSELT_HD explicit Choice(const Real& random) noexcept : u(random) {}
-
         NUSSELT_HD void offer(const Real& weight, const Interval<Real>& candidate,
                               const mask_t<Real>& candidate_is_lobe) noexcept {
             total = total + weight;
@@ -170,10 +149,59 @@ private:
         }
 
         Real total = Real(0); ///< of the weights
-        Real u;               ///< random in [0, 1), independent of the choice
+        Real u = Real(0);     ///< random in [0, 1), independent of the choice
         Interval<Real> part{Real(0), Real(0)};
         mask_t<Real> is_lobe = mask_t<Real>(false);
     };
+
+    /// Integrals of the cosine and of the lobe, corrected by stratified points.
+    template <int kPoints, class Radiance>
+    NUSSELT_HD BrdfComponents<Real> estimate(const Real& offset, const VisibleParts<Real>& parts,
+                                             const Real& u, const Radiance& radiance) const noexcept {
+        using Scalar = scalar_t<Real>;
+        const Line line = line_at(offset);
+        Real diffuse = Real(0);
+        Real specular = Real(0);
+        Choice choices[kPoints];
+        for (int i = 0; i < kPoints; ++i)
+            choices[i].u = Real(Scalar(1) / kPoints) * (u + Real(static_cast<Scalar>(i)));
+        const auto offer = [&](const Real& weight, const Interval<Real>& candidate, bool is_lobe) {
+            for (Choice& choice : choices) choice.offer(weight, candidate, mask_t<Real>(is_lobe));
+        };
+        for (int k = 0; k < parts.count(); ++k) {
+            if (!any(parts[k].begin < parts[k].end)) continue;
+            const Interval<Real> above = line.cosine.clipped(finite(parts[k]));
+            const Real by_cosine = line.cosine.integral(above);
+            diffuse = diffuse + by_cosine;
+            offer(cosine_weight_ * by_cosine, above, false);
+            if (!any(is_glossy_)) continue;
+            const Interval<Real> lit = line.lobe.clipped(above);
+            const Real by_lobe = line.lobe.integral(lit);
+            specular = specular + by_lobe;
+            offer(lobe_weight_ * by_lobe, lit, true);
+        }
+        BrdfComponents<Real> result{diffuse * diffuse_albedo_, specular * surface_.specular_albedo};
+        if (!any(choices[0].total > Real(0))) return result;
+        for (const Choice& choice : choices) {
+            const Real at = coordinate_of(line, choice);
+            const Vec3<Real> wi = direction_to(line, at);
+            const Real cosine = max(wi.z, Real(0));
+            const Real cosine_density = Real(1 / kPi<Scalar>) * cosine;
+            const Real lobe_density = select(is_glossy_, surface_.lobe.density(wi), Real(0));
+            // The change from directions to points of the line is the same in the integrand and in the density.
+            const Real density = fma(cosine_weight_, cosine_density, lobe_weight_ * lobe_density);
+            const auto drawn = (choice.total > Real(0)) & (density > Real(0));
+            const Real share = Real(Scalar(1) / kPoints) * choice.total;
+            const Real factor = select(drawn, share / select(drawn, density, Real(1)), Real(0));
+            const BrdfComponents<Real> brdf = surface_.brdf.eval_components(wi);
+            const Vec3<Real> lit = cosine * radiance(at);
+            result.diffuse =
+                fma(factor, lit * brdf.diffuse - cosine_density * diffuse_albedo_, result.diffuse);
+            result.specular =
+                fma(factor, lit * brdf.specular - lobe_density * surface_.specular_albedo, result.specular);
+        }
+        return result;
+    }
 
     NUSSELT_HD LineLight(const ScaledPlane<Real>& plane, const Surface& surface) noexcept
         : surface_(surface), cosine_(plane), lobe_(plane, surface.lobe), is_glossy_(surface.is_glossy()) {
@@ -198,15 +226,17 @@ private:
         return {select(lit, part.begin, Real(0)), select(lit, part.end, Real(0))};
     }
 
-    /// The direction to a point of the part, with a density by the lobe.
-    NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Choice& choice) const noexcept {
+    /// A point of the part, with a density by the lobe: its coordinate along the line [m].
+    NUSSELT_HD Real coordinate_of(const Line& line, const Choice& choice) const noexcept {
         const auto image = LobeLine<Real>::select_between(choice.is_lobe, line.lobe, line.cosine);
         const CosineArc<Real> arc(image.extent(choice.part));
         const Real coordinate = dot(arc.map().position(arc.point(choice.u)), image.along) - image.shift;
         const Real at = coordinate / select(image.stretch > Real(0), image.stretch, Real(1));
-        const Real on_part = min(max(at, choice.part.begin), choice.part.end);
+        return min(max(at, choice.part.begin), choice.part.end);
+    }
+    NUSSELT_HD Vec3<Real> direction_to(const Line& line, const Real& at) const noexcept {
         const Vec3<Real> p =
-            fma(fma(on_part, line.cosine.stretch, line.cosine.shift), line.cosine.along, line.cosine.closest);
+            fma(fma(at, line.cosine.stretch, line.cosine.shift), line.cosine.along, line.cosine.closest);
         return inverse_length(p) * p;
     }
 

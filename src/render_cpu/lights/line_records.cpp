@@ -3,12 +3,30 @@
 #include "render_cpu/lights/light_kernel.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
+#include "scene/model/vector_math.h"
 
+#include <nusselt/emission/textured_line.h>
 #include <nusselt/geometry/line_segment.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace nusselt::render_cpu {
 
 namespace {
+
+using Profile = LineProfile<float, scene::kMaxLineTexels>;
+
+struct LineArrays {
+    std::vector<LineRecord> lights;
+    std::vector<std::unique_ptr<const Profile>> profiles;
+};
+
+Profile make_profile(const scene::LineLight& light, const scene::TexturedEmission& emission) {
+    const std::vector<Vec3<float>> texels =
+        scene::scaled(emission.texture->texels, scene::per_channel_ratio(light.radiance, emission.mean));
+    return make_line_profile<scene::kMaxLineTexels>(texels.data(), static_cast<int>(texels.size()));
+}
 
 LineRecord make_record(const scene::LineLight& light) {
     const auto line = make_line(to_vec(light.start), to_vec(light.end));
@@ -19,13 +37,25 @@ LineRecord make_record(const scene::LineLight& light) {
             light.model,
             light.normal,
             light.radiance,
-            scene::to_float3(light.radius * to_vec(light.radiance))};
+            scene::to_float3(light.radius * to_vec(light.radiance)),
+            scene::per_channel_ratio({1, 1, 1}, light.radiance),
+            nullptr};
 }
 
 } // namespace
 
 std::shared_ptr<const void> make_line_records(const scene::Scene& scene, const scene::LightList& list) {
-    return make_record_array<scene::LineLight, make_record>(scene, list);
+    const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
+    if (lines == nullptr) return nullptr;
+    const auto arrays = std::make_shared<LineArrays>();
+    for (const scene::LineLight& light : lines->lights) {
+        arrays->lights.push_back(make_record(light));
+        if (light.texture < 0) continue;
+        const auto& emission = scene.emission_textures.at(static_cast<std::size_t>(light.texture));
+        arrays->profiles.push_back(std::make_unique<const Profile>(make_profile(light, emission)));
+        arrays->lights.back().profile = arrays->profiles.back().get();
+    }
+    return {arrays, arrays->lights.data()};
 }
 
 } // namespace nusselt::render_cpu

@@ -17,6 +17,8 @@ struct LineRecord {
     scene::Float3 normal; ///< of strips
     scene::Float3 radiance;
     scene::Float3 radiance_times_radius;
+    scene::Float3 inverse_mean; ///< of the radiance; 0 for channels that are black everywhere
+    const void* profile;        ///< a LineProfile<float, scene::kMaxLineTexels>, null for uniform radiance
 };
 
 /// Makes an array of LineRecord, see LightKernel.

@@ -6,6 +6,9 @@
 
 #include <nusselt/geometry/line_segment.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace nusselt::render_vulkan {
 
 namespace {
@@ -25,6 +28,9 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
 bool write_lines(const scene::LightList& list, LightRecords& records) {
     const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
     if (lines == nullptr) return false;
+    if (std::any_of(lines->lights.begin(), lines->lights.end(),
+                    [](const auto& light) { return light.texture >= 0; }))
+        throw std::runtime_error("lights that emit an image are not supported on GPUs; use --backend cpu");
     std::vector<interface::LineLightRecord> lights;
     for (const scene::LineLight& light : lines->lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));

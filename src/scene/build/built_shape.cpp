@@ -41,9 +41,14 @@ void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
         if (first_light > 0)
             for (std::int32_t& light : shape.triangle_light)
                 if (light >= 0) light += first_light;
-        if (first_texture > 0 && !shape.emission_textures.empty())
-            for (PolygonLight& light : shape.lights.of<PolygonLight>())
-                if (light.texture >= 0) light.texture += first_texture;
+        if (first_texture > 0 && !shape.emission_textures.empty()) {
+            const auto renumber_textures = [&](auto& list) {
+                for (auto& light : list)
+                    if (light.texture >= 0) light.texture += first_texture;
+            };
+            renumber_textures(shape.lights.of<PolygonLight>());
+            renumber_textures(shape.lights.of<LineLight>());
+        }
         if (first_profile > 0 && !shape.emission_profiles.empty())
             for (PolygonLight& light : shape.lights.of<PolygonLight>())
                 if (light.profile >= 0) light.profile += first_profile;

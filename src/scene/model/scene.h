@@ -171,7 +171,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Emitter> emitters;
     Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
-    std::vector<TexturedEmission> emission_textures; ///< of polygonal lights
+    std::vector<TexturedEmission> emission_textures; ///< of polygons, tubes and lines
     std::vector<ProfiledEmission> emission_profiles; ///< of polygonal lights
     std::vector<std::shared_ptr<const Luminaire>> luminaires; ///< of point lights
     std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps;

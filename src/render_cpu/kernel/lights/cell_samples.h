@@ -1,10 +1,10 @@
 #pragma once
 /// Samples in proportion to radiance times a measure, for lights whose radiance varies.
 ///
-/// They come from a lattice of cells for each shading point, where cells are the lanes: shading points take turns. All that
+/// They come from cells for each shading point, where cells are the lanes: shading points take turns. All that
 /// follows a sample has shading points as lanes again. A light is described by a type `Cells` with
 ///
-///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon;
+///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon or TexturedLine;
 ///     Vec3<float> radiance(sample, lane): what the light emits along a sample [W/(sr m^2)];
 ///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m];
 ///     float density(technique, sample): of one of these techniques at a sample of the other one.
@@ -82,6 +82,15 @@ struct CellDraws {
     LightSample<Real> sample() const noexcept { return {load(wi), Real::load(drawn), load(p)}; }
 };
 
+/// A sample of a technique that takes two random numbers, or one.
+template <class Technique>
+auto sample_of(const Technique& technique, const Vec2<float>& u) noexcept {
+    if constexpr (requires { technique.sample(u); })
+        return technique.sample(u);
+    else
+        return technique.sample(u.x);
+}
+
 /// Draws from the techniques of some lanes.
 /// \param other_density density at a sample of the other technique of a pair, function of lane and sample
 template <class Cells, class Technique, class OtherDensity>
@@ -94,7 +103,7 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
     const std::uint32_t bits = lanes.bits();
     for (int lane = 0; lane < kLanes; ++lane) {
         if ((bits >> lane & 1u) == 0 || !techniques.has(lane)) continue;
-        const auto sample = techniques[lane].sample({x[lane], y[lane]});
+        const auto sample = sample_of(techniques[lane], {x[lane], y[lane]});
         draws.set(lane, sample, cells.point(sample), cells.radiance(sample, lane));
         draws.other[lane] = sample.pdf != 0 ? other_density(lane, sample) : 0.0f;
     }

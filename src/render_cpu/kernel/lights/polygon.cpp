@@ -8,8 +8,8 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     const bool has_lines = job.light_samples == render::LightSamples::lines;
     add[0] = has_lines ? polygon_lines<4>() : polygon_points<4>(job);
     add[1] = has_lines ? polygon_lines<8>() : polygon_points<8>(job);
-    add[2] = textured_points<4>(job);
-    add[3] = textured_points<8>(job);
+    add[2] = has_lines ? polygon_lines<4>() : textured_points<4>(job);
+    add[3] = has_lines ? polygon_lines<8>() : textured_points<8>(job);
     add[4] = profiled_points<4>(job);
     add[5] = profiled_points<8>(job);
 }
@@ -26,7 +26,7 @@ scene::Float3 radiance_along(const render_cpu::PolygonTexture& texture, const Ve
     plane.corner = plane.corner - origin;
     const float distance = dot(plane.normal, plane.corner) / dot(plane.normal, direction);
     const Vec2<float> at = TextureCoordinates<float>(plane)(distance * direction);
-    const Vec3<float> radiance = radiance_at(texture, {at.x > 0 ? at.x : 0, at.y > 0 ? at.y : 0});
+    const Vec3<float> radiance = radiance_at(texture, Vec2<float>{at.x > 0 ? at.x : 0, at.y > 0 ? at.y : 0});
     return {radiance.x, radiance.y, radiance.z};
 }
 

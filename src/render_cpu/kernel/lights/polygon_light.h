@@ -69,6 +69,23 @@ inline Vec3<float> radiance_at(const render_cpu::PolygonTexture& texture, const 
     return BilinearFilter::lookup(view, at);
 }
 
+/// The same for each lane, where coordinates may be a little outside of [0, 1].
+inline Vector radiance_at(const render_cpu::PolygonTexture& texture, const Vec2<Real>& at) noexcept {
+    Lanes radiance;
+    float x[kLanes];
+    float y[kLanes];
+    // Comparisons with NaN are false.
+    select(at.x > Real(0), at.x, Real(0)).store(x);
+    select(at.y > Real(0), at.y, Real(0)).store(y);
+    for (int i = 0; i < kLanes; ++i) {
+        const Vec3<float> value = radiance_at(texture, Vec2<float>{x[i], y[i]});
+        radiance.x[i] = value.x;
+        radiance.y[i] = value.y;
+        radiance.z[i] = value.z;
+    }
+    return load(radiance);
+}
+
 /// A polygon in shading space.
 template <int N>
 struct LocalPolygon : ConvexPolygon<Real, N> {
@@ -80,19 +97,8 @@ struct LocalPolygon : ConvexPolygon<Real, N> {
         if (profile != nullptr) modulate_by_profile(surface, sample);
         if (texture == nullptr) return;
         const Vec2<Real> at = TextureCoordinates<Real>(local_plane(*texture, surface))(sample.p);
-        Lanes radiance;
-        float x[kLanes];
-        float y[kLanes];
-        // Comparisons with NaN are false.
-        select(at.x > Real(0), at.x, Real(0)).store(x);
-        select(at.y > Real(0), at.y, Real(0)).store(y);
-        for (int i = 0; i < kLanes; ++i) {
-            const Vec3<float> value = radiance_at(*texture, {x[i], y[i]});
-            radiance.x[i] = value.x;
-            radiance.y[i] = value.y;
-            radiance.z[i] = value.z;
-        }
-        sample.shadowed = (broadcast<Real>(to_vec(texture->inverse_mean)) * load(radiance)) * sample.shadowed;
+        sample.shadowed =
+            (broadcast<Real>(to_vec(texture->inverse_mean)) * radiance_at(*texture, at)) * sample.shadowed;
     }
 
 private:

@@ -17,6 +17,40 @@ using render::ManyOccluders;
 
 using Estimator = LineLight<Real, SurfaceBrdf>;
 
+/// Points on each line that look up radiance. Each costs about as much as what else there is to do for a line in plain
+/// sight; docs/line-samples.md has measurements.
+constexpr int kTexturePoints = 4;
+
+/// The radiance of a light with a texture along parallel lines of it, over its mean.
+class RadianceOfLines {
+public:
+    /// \param plane of the lines, in world space
+    RadianceOfLines(const render_cpu::PolygonTexture& texture, const LinePlane<float>& plane) noexcept
+        : texture_(texture),
+          along_(broadcast<Real>(plane.along)),
+          across_(broadcast<Real>(plane.across)),
+          coordinates_(relative_plane(texture, plane)) {}
+
+    /// \param offset of the lines
+    /// \param at     coordinates along them
+    Vector operator()(const Real& offset, const Real& at) const noexcept {
+        return broadcast<Real>(to_vec(texture_.inverse_mean)) *
+               radiance_at(texture_, coordinates_(fma(at, along_, offset * across_)));
+    }
+
+private:
+    static TexturePlane<Real> relative_plane(const render_cpu::PolygonTexture& texture,
+                                             const LinePlane<float>& plane) noexcept {
+        const TexturePlane<float> world = plane_of(texture);
+        return {broadcast<Real>(world.corner - plane.origin), broadcast<Real>(world.side_x),
+                broadcast<Real>(world.side_y), broadcast<Real>(world.normal)};
+    }
+
+    const render_cpu::PolygonTexture& texture_;
+    Vector along_, across_;
+    TextureCoordinates<Real> coordinates_; ///< of points relative to the origin of the plane
+};
+
 /// The part of each line that is above the geometric tangent plane of the surface.
 Interval<Real> above_surface(const Chord<Real>& chord, const LinePlane<float>& plane,
                              const ShadingPoint& point) noexcept {
@@ -73,14 +107,16 @@ private:
 template <int N>
 class LineSampler {
 public:
+    /// \param texture null for uniform radiance
     LineSampler(ReflectedLight& reflected, const ConvexPolygon<float, N>& polygon,
-                std::int32_t light) noexcept
+                const render_cpu::PolygonTexture* texture, std::int32_t light) noexcept
         : reflected_(reflected),
           settings_(reflected.job().lines),
           memory_(*static_cast<LineMemory*>(reflected.line_memory())),
           light_(light),
           count_(static_cast<std::uint32_t>(settings_.count)),
           polygon_(polygon),
+          texture_(texture),
           fixed_(polygon_, 0.0f),
           families_(broadcast<Real>(polygon_), common_angles()) {}
 
@@ -209,7 +245,7 @@ private:
                 traced[i] = make_traced(chosen[i], chosen[i].extent, i * kPartsPerLine, kPartsPerLine);
             find_visible_parts(lines.seen, traced, packs);
             for (int i = 0; i < packs; ++i)
-                if (!has_lost_parts(traced[i])) add_pack(point, lines.estimator, chosen[i], traced[i], sum);
+                if (!has_lost_parts(traced[i])) add_pack(point, lines, chosen[i], traced[i], sum);
             // Comes last because it overwrites the memory of the other packs.
             for (int i = 0; i < packs; ++i)
                 if (has_lost_parts(traced[i]))
@@ -223,8 +259,7 @@ private:
                      const Interval<Real>& extent, int halvings, LineSum& sum) noexcept {
         TracedLines<Real> traced = make_traced(chosen, extent, 0, kPartsInMemory);
         find_visible_parts(lines.seen, &traced, 1);
-        if (halvings == 0 || !has_lost_parts(traced))
-            return add_pack(point, lines.estimator, chosen, traced, sum);
+        if (halvings == 0 || !has_lost_parts(traced)) return add_pack(point, lines, chosen, traced, sum);
         const Real middle = fma(Real(0.5f), extent.end - extent.begin, extent.begin);
         add_crowded(point, lines, chosen, {extent.begin, middle}, halvings - 1, sum);
         add_crowded(point, lines, chosen, {middle, extent.end}, halvings - 1, sum);
@@ -268,21 +303,32 @@ private:
         LineTracer<Real>(*reflected_.job().line_bvh, seen, lines, packs, counters()).trace();
     }
 
-    void add_pack(const ShadingPoint& point, const Estimator& estimator, const ChosenLines& lines,
+    BrdfComponents<Real> estimate(const ShadingPoint& point, const ParallelLines& lines, const Real& u,
+                                  const TracedLines<Real>& traced) const noexcept {
+        const VisibleParts<Real>& parts = traced.parts;
+        if (texture_ != nullptr) {
+            const RadianceOfLines radiance(*texture_, lines.plane);
+            return lines.estimator.template textured<kTexturePoints>(
+                traced.offset, parts, u, [&](const Real& at) { return radiance(traced.offset, at); });
+        }
+        const bool is_closed_form = settings_.shading == LineShading::analytic || point.is_closed_form;
+        return is_closed_form ? lines.estimator.analytic(traced.offset, parts)
+                              : lines.estimator.unbiased(traced.offset, parts, u);
+    }
+
+    void add_pack(const ShadingPoint& point, const ParallelLines& lines, const ChosenLines& chosen,
                   const TracedLines<Real>& traced, LineSum& sum) noexcept {
         const VisibleParts<Real>& parts = traced.parts;
         for (int i = 0; i < parts.count(); ++i) sum.parts += count_lanes(parts[i].begin < parts[i].end);
-        const bool is_closed_form = settings_.shading == LineShading::analytic || point.is_closed_form;
-        const BrdfComponents<Real> light = is_closed_form ? estimator.analytic(traced.offset, parts)
-                                                          : estimator.unbiased(traced.offset, parts, lines.u);
-        const Real weight = Real(1) / select(lines.drawn, lines.pdf, Real(1));
+        const BrdfComponents<Real> light = estimate(point, lines, chosen.u, traced);
+        const Real weight = Real(1) / select(chosen.drawn, chosen.pdf, Real(1));
         const Vector diffuse = weight * light.diffuse;
         const Vector all = diffuse + weight * light.specular;
         const LaneMask sound = is_finite(all);
-        reflected_.statistics().rejected_samples += count_lanes(lines.drawn & !sound);
+        reflected_.statistics().rejected_samples += count_lanes(chosen.drawn & !sound);
         const Vector zero{Real(0), Real(0), Real(0)};
-        sum.all.add(select(lines.drawn & sound, all, zero));
-        sum.diffuse.add(select(lines.drawn & sound, diffuse, zero));
+        sum.all.add(select(chosen.drawn & sound, all, zero));
+        sum.diffuse.add(select(chosen.drawn & sound, diffuse, zero));
     }
 
     ReflectedLight& reflected_;
@@ -291,6 +337,7 @@ private:
     std::int32_t light_;
     std::uint32_t count_;
     ConvexPolygon<float, N> polygon_; ///< in world space
+    const render_cpu::PolygonTexture* texture_;
     Family fixed_;
     LineFamily<Real, N> families_; ///< one for each shading point of the packet
 };
@@ -300,7 +347,8 @@ void add_points(ReflectedLight& reflected, const render_cpu::LightSet& lights, s
                 LaneMask lanes) noexcept {
     const render_cpu::RenderJob& job = reflected.job();
     ReflectedLight others = reflected.with(lanes, job.points_in_place_of_lines);
-    polygon_points<N>(job)(others, lights, index);
+    const bool has_texture = texture_of(lights, index) != nullptr;
+    (has_texture ? textured_points<N>(job) : polygon_points<N>(job))(others, lights, index);
     reflected.add(others);
 }
 
@@ -319,7 +367,8 @@ void add_lines(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights
     }
     PacketResult result;
     std::uint32_t with_points = 0;
-    LineSampler<N> sampler(reflected, PolygonLight<N>::world(lights, index), lights.first + index);
+    LineSampler<N> sampler(reflected, PolygonLight<N>::world(lights, index), light.shape.texture,
+                           lights.first + index);
     for (int lane = 0; lane < kLanes; ++lane)
         if ((lit >> lane & 1u) != 0 && !sampler.sample(lane, result)) with_points |= 1u << lane;
     light.lit = LaneMask::from_bits(lit & ~with_points);

@@ -1,6 +1,7 @@
 #include "scene/build/lights/tube_light.h"
 
 #include "scene/build/lights/profiled_light.h"
+#include "scene/build/lights/textured_tube.h"
 #include "scene/model/vector_math.h"
 
 #include <cmath>
@@ -94,15 +95,16 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    Emission outwards = without_profile(without_texture(shape.emission));
-    outwards.two_sided = false;
-    if (shape.emission.texture != nullptr)
-        built.warnings.add(shape.origin, "texture of tube",
-                           subject_of(shape) + ": the image is replaced by its mean colour on tubes");
     if (has_profile(shape.emission))
         built.warnings.add(shape.origin, "profiles of tubes",
                            subject_of(shape) + ": tubes have no profile; it emits as much light alike in all "
                                                "directions");
+    if (shape.emission.texture != nullptr) {
+        add_textured_tube(shape, words, light, built);
+        return built;
+    }
+    Emission outwards = without_profile(shape.emission);
+    outwards.two_sided = false;
     light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
     built.lights.of<LineLight>() = {light};
     return built;

@@ -68,8 +68,8 @@ void Kind::add_to(const LineLight& light, Bounds& bounds) {
 
 // A new member does not compile until it is listed here.
 void Kind::hash(const LineLight& light, ContentHash& hash) {
-    const auto& [emitter, start, end, radius, radiance, model, normal] = light;
-    hash.add(emitter, start, end, radius, radiance, model, normal);
+    const auto& [emitter, start, end, radius, radiance, model, normal, texture] = light;
+    hash.add(emitter, start, end, radius, radiance, model, normal, texture);
 }
 
 Double3 Kind::flux_per_emission(const LineLight& light, double /*scene_radius*/) {
@@ -177,7 +177,8 @@ std::string Kind::describe(std::span<const LineLight> lights, double /*scene_rad
     }
     const LineLight& first = lights.front();
     return (lights.size() > 1 ? std::to_string(lights.size()) + " lines, " : "") + "length " +
-           report_text(extent) + " m, " + width_text(first) + " m, radiance " + report_text(first.radiance) +
+           report_text(extent) + " m, " + width_text(first) + " m, " +
+           (first.texture >= 0 ? "textured, mean radiance " : "radiance ") + report_text(first.radiance) +
            " W/(sr m^2), " + power_text(lambertian_flux(sum), first.radiance);
 }
 

@@ -18,16 +18,21 @@ struct LineLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
-    float radius = 0; ///< [m]; of strips, half the width
-    Float3 radiance = {0, 0, 0};
+    float radius = 0;            ///< [m]; of strips, half the width
+    Float3 radiance = {0, 0, 0}; ///< with a texture the mean over all that emits
     TubeModel model = TubeModel::solid;
     Float3 normal = {0, 0, 0}; ///< of strips: unit, perpendicular to the line
+    /// Index into Scene::emission_textures, -1 for uniform radiance. Radiance varies along the line only: the texture has one
+    /// column and up to kMaxLineTexels rows, from the start to the end. Caps have the radiance of the ends.
+    std::int32_t texture = -1;
 };
 
 /// The area of the lateral surface, or of both sides of a strip [m^2].
 double lateral_area(const LineLight& light);
 /// The area of all that emits: the lateral surface, and the caps of solid tubes [m^2].
 double area(const LineLight& light);
+
+inline constexpr int kMaxLineTexels = 64;
 
 /// Sides of a tube as cameras see it; the polygon with this many corners has the area of the circle.
 inline constexpr int kTubeSides = 32;

@@ -1,5 +1,5 @@
 #pragma once
-/// Radiance that varies over a polygonal light.
+/// Radiance that varies over a polygonal light, or along a tube or a line.
 
 #include "scene/model/float3.h"
 
@@ -21,11 +21,11 @@ struct EmissionTexture {
 
 inline constexpr int kMaxEmissionTextureSize = 1 << 14;
 
-/// The texture of one polygonal light. At a texel t, the light has the radiance PolygonLight::radiance * t / mean, per
-/// channel: its mean radiance is PolygonLight::radiance, whatever changes that. A channel that is black everywhere stays so.
+/// The texture of one light. At a texel t, the light has the radiance `radiance * t / mean`, per channel: its mean radiance is
+/// the member `radiance` of PolygonLight or LineLight, whatever changes that. A channel that is black everywhere stays so.
 struct TexturedEmission {
     std::shared_ptr<const EmissionTexture> texture;
-    /// Texture coordinates of the vertices, in [0, 1]: an affine function of their positions.
+    /// Of polygons, the texture coordinates of the vertices, in [0, 1]: an affine function of their positions.
     std::array<Float2, 8> coordinates = {};
     Float3 mean = {0, 0, 0}; ///< of the texture over the light
 };

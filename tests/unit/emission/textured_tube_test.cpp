@@ -1,0 +1,209 @@
+/// Tests of sampling of tubes whose radiance varies along them: densities, inversion, noise, hostile lights.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/emission/textured_tube.h>
+#include <nusselt/sampling/cylinder_ltc.h>
+#include <nusselt/sampling/cylinder_projected_solid_angle.h>
+
+#include "ltc/lobes.h"
+
+namespace nusselt_test {
+namespace {
+
+using nusselt::Cylinder;
+using nusselt::CylinderLtc;
+using nusselt::CylinderProjectedSolidAngle;
+using nusselt::LineProfile;
+using nusselt::make_line;
+using nusselt::make_line_profile;
+using nusselt::TexturedTube;
+using nusselt::Vec2;
+using nusselt::Vec3;
+
+template <class T, class Value>
+LineProfile<T> profile_of(int count, const Value& value) {
+    std::vector<Vec3<T>> texels;
+    for (int k = 0; k < count; ++k) {
+        const auto x = static_cast<T>(value((k + 0.5) / count));
+        texels.push_back({x, x, x});
+    }
+    return make_line_profile(texels.data(), count);
+}
+
+struct NamedProfile {
+    const char* name;
+    LineProfile<double> profile;
+    double most_noise; ///< relative to a technique that does not know the profile
+};
+
+const std::vector<NamedProfile>& profiles() {
+    static const std::vector<NamedProfile> list = {
+        {"gradient", profile_of<double>(16, [](double x) { return 0.1 + x * x; }), 0.4},
+        {"stripes", profile_of<double>(24, [](double x) { return static_cast<int>(6 * x) % 2 + 0.1; }), 0.7},
+        {"dots", profile_of<double>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; }), 0.7},
+    };
+    return list;
+}
+
+std::vector<Cylinder<double>> tubes() {
+    return {{make_line<double>({-0.5, 0.3, 1}, {0.5, 0.4, 1.2}), 0.02},
+            {make_line<double>({-3, 0.6, 0.5}, {4, 0.5, 0.6}), 0.1},
+            {make_line<double>({1, -0.4, -0.7}, {0.8, 0.9, 1.1}), 0.1}};
+}
+
+template <class T>
+nusselt::Ltc<T> glossy_lobe() {
+    const auto c = tilted_lobe(0.5L, 0.4L, 1.1L, 0.1L);
+    return nusselt::Ltc<T>({static_cast<T>(c.m00), static_cast<T>(c.m02), static_cast<T>(c.m11),
+                            static_cast<T>(c.m20), static_cast<T>(c.m22), T(1)});
+}
+
+struct Diffuse {
+    template <class T>
+    static auto uniform(const Cylinder<T>& tube) {
+        return CylinderProjectedSolidAngle<T>(tube);
+    }
+    template <class T>
+    static T integrand(const Vec3<T>& wi) {
+        return std::max(wi.z, T(0));
+    }
+};
+
+struct Specular {
+    template <class T>
+    static auto uniform(const Cylinder<T>& tube) {
+        return CylinderLtc<T>(tube, glossy_lobe<T>());
+    }
+    template <class T>
+    static T integrand(const Vec3<T>& wi) {
+        return wi.z > 0 ? glossy_lobe<T>().density(wi) : T(0);
+    }
+};
+
+template <class Variant, class T>
+auto textured(const Cylinder<T>& tube, const LineProfile<T>& profile) {
+    const auto technique = Variant::uniform(tube);
+    return TexturedTube<T, std::remove_const_t<decltype(technique)>>(technique, tube, profile);
+}
+
+template <class Variant>
+class TexturedTubeTest : public ::testing::Test {};
+using Variants = ::testing::Types<Diffuse, Specular>;
+TYPED_TEST_SUITE(TexturedTubeTest, Variants);
+
+double radiance_at(const Cylinder<double>& tube, const LineProfile<double>& profile, const Vec3<double>& p) {
+    return profile.lookup(std::clamp(dot(p - tube.axis.p0, tube.axis.s) / tube.axis.length, 0.0, 1.0)).x;
+}
+
+/// The mean and standard deviation of estimates over a lattice of random numbers.
+template <class Variant, class Technique>
+Vec2<double> statistics(const Cylinder<double>& tube, const LineProfile<double>& profile,
+                        const Technique& technique) {
+    constexpr int kTurns = 12, kSteps = 1024;
+    double sum = 0, squares = 0;
+    for (int k = 0; k < kTurns * kSteps; ++k) {
+        const auto s = technique.sample({(k % kTurns + 0.5) / kTurns, (k / kTurns + 0.5) / kSteps});
+        if (s.pdf == 0) continue;
+        const double value = radiance_at(tube, profile, s.p) * Variant::integrand(s.wi) / s.pdf;
+        sum += value;
+        squares += value * value;
+    }
+    const double mean = sum / (kTurns * kSteps);
+    return {mean, std::sqrt(std::max(squares / (kTurns * kSteps) - mean * mean, 0.0))};
+}
+
+TYPED_TEST(TexturedTubeTest, IsUnbiasedWithLittleNoise) {
+    for (const NamedProfile& named : profiles()) {
+        for (const auto& tube : tubes()) {
+            const auto technique = textured<TypeParam>(tube, named.profile);
+            const auto uniform = TypeParam::uniform(tube);
+            const Vec2<double> found = statistics<TypeParam>(tube, named.profile, technique);
+            const Vec2<double> expected = statistics<TypeParam>(tube, named.profile, uniform);
+            std::printf("%s, radius %g: noise %.4f, without knowledge of the profile %.4f\n", named.name,
+                        tube.radius, found.y / found.x, expected.y / expected.x);
+            EXPECT_NEAR(found.x / expected.x, 1, 3e-3) << named.name;
+            EXPECT_LT(found.y, named.most_noise * expected.y) << named.name;
+            // The density of the uniform technique for samples of this one would be wrong.
+            const auto mutant = [&](const Vec2<double>& u) {
+                auto s = technique.sample(u);
+                s.pdf = uniform.pdf(s.wi);
+                return s;
+            };
+            struct Mutant {
+                decltype(mutant) sample;
+            };
+            const Vec2<double> wrong = statistics<TypeParam>(tube, named.profile, Mutant{mutant});
+            EXPECT_GT(std::fabs(wrong.x / expected.x - 1), 0.01) << named.name;
+        }
+    }
+}
+
+TYPED_TEST(TexturedTubeTest, SamplesDensitiesAndInversesAgree) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (const NamedProfile& named : profiles()) {
+        for (const auto& tube : tubes()) {
+            const auto technique = textured<TypeParam>(tube, named.profile);
+            for (int k = 0; k < 100; ++k) {
+                const Vec2<double> u{uniform(random), uniform(random)};
+                const auto s = technique.sample(u);
+                if (s.pdf == 0) continue;
+                ASSERT_NEAR(technique.pdf(s.wi) / s.pdf, 1, 1e-5) << named.name;
+                const Vec2<double> inverse = technique.invert(s.wi);
+                ASSERT_NEAR(inverse.x, u.x, 1e-6);
+                ASSERT_NEAR(inverse.y, u.y, 1e-6);
+            }
+        }
+    }
+}
+
+/// Points and directions of all sizes, many of them through the shading point or in its plane.
+template <class Variant, class T>
+void expect_contract_on_hostile_lights() {
+    std::mt19937 random(6);
+    const std::vector<double> coordinates = {0, 0, 1, -1, 0.5, 1e-6, -1e-6, 1e-3, 1e6, -1e6, 1e-9, 0.3333333};
+    const auto pick = [&] {
+        return static_cast<T>(
+            coordinates[std::uniform_int_distribution<std::size_t>(0, coordinates.size() - 1)(random)]);
+    };
+    const LineProfile<T> all[] = {profile_of<T>(1, [](double) { return 0; }),
+                                  profile_of<T>(64, [](double x) { return x > 0.9; }),
+                                  profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); })};
+    constexpr T kLargest = std::numeric_limits<T>::max();
+    int lit = 0;
+    for (int k = 0; k < 400; ++k) {
+        const Vec3<T> a{pick(), pick(), pick()};
+        const Vec3<T> b{pick(), pick(), pick()};
+        const Cylinder<T> tube{make_line(a, b), abs(pick())};
+        const auto technique = textured<Variant>(tube, all[static_cast<std::size_t>(k) % 3]);
+        ASSERT_TRUE(technique.measure() >= 0 && technique.measure() <= kLargest);
+        for (const double u : {0.0, 0.25, 0.5, 0.77, 0.9999, 1 - 1e-16}) {
+            const auto s = technique.sample({T(0.3), static_cast<T>(u)});
+            ASSERT_TRUE(s.pdf >= 0 && s.pdf <= kLargest) << k;
+            ASSERT_TRUE(abs(s.wi.x) < 2 && abs(s.wi.y) < 2 && abs(s.wi.z) < 2) << k;
+            const T again = technique.pdf(s.wi);
+            ASSERT_TRUE(again >= 0 && again <= kLargest);
+            const Vec2<T> inverse = technique.invert(s.wi);
+            ASSERT_TRUE(inverse.x >= 0 && inverse.x < 1 && inverse.y >= 0 && inverse.y < 1) << k;
+            lit += s.pdf > 0;
+        }
+    }
+    EXPECT_GT(lit, 200);
+}
+
+TYPED_TEST(TexturedTubeTest, KeepsTheContractOnHostileLights) {
+    expect_contract_on_hostile_lights<TypeParam, float>();
+    expect_contract_on_hostile_lights<TypeParam, double>();
+    expect_contract_on_hostile_lights<TypeParam, long double>();
+}
+
+} // namespace
+} // namespace nusselt_test
