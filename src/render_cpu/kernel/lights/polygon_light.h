@@ -51,6 +51,25 @@ inline Vec3<float> radiance_at(const render_cpu::PolygonTexture& texture, const 
     return BilinearFilter::lookup(view, at);
 }
 
+/// The same for some lanes.
+inline Vector radiance_at(const render_cpu::PolygonTexture& texture, const Vec2<Real>& at,
+                          LaneMask lanes) noexcept {
+    Lanes radiance{};
+    float x[kLanes];
+    float y[kLanes];
+    at.x.store(x);
+    at.y.store(y);
+    const std::uint32_t bits = lanes.bits();
+    for (int i = 0; i < kLanes; ++i) {
+        if ((bits >> i & 1u) == 0) continue;
+        const Vec3<float> value = radiance_at(texture, {x[i], y[i]});
+        radiance.x[i] = value.x;
+        radiance.y[i] = value.y;
+        radiance.z[i] = value.z;
+    }
+    return load(radiance);
+}
+
 /// A polygon in shading space.
 template <int N>
 struct LocalPolygon : ConvexPolygon<Real, N> {
@@ -60,19 +79,11 @@ struct LocalPolygon : ConvexPolygon<Real, N> {
     void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
         if (texture == nullptr) return;
         const Vec2<Real> at = TextureCoordinates<Real>(local_plane(*texture, surface))(sample.p);
-        Lanes radiance;
-        float x[kLanes];
-        float y[kLanes];
         // Comparisons with NaN are false.
-        select(at.x > Real(0), at.x, Real(0)).store(x);
-        select(at.y > Real(0), at.y, Real(0)).store(y);
-        for (int i = 0; i < kLanes; ++i) {
-            const Vec3<float> value = radiance_at(*texture, {x[i], y[i]});
-            radiance.x[i] = value.x;
-            radiance.y[i] = value.y;
-            radiance.z[i] = value.z;
-        }
-        sample.shadowed = (broadcast<Real>(to_vec(texture->inverse_mean)) * load(radiance)) * sample.shadowed;
+        const Vector radiance = radiance_at(
+            *texture, {select(at.x > Real(0), at.x, Real(0)), select(at.y > Real(0), at.y, Real(0))},
+            LaneMask(true));
+        sample.shadowed = (broadcast<Real>(to_vec(texture->inverse_mean)) * radiance) * sample.shadowed;
     }
 };
 
