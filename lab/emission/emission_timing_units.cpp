@@ -14,17 +14,61 @@ using lab::EmissionViews;
 using lab::kEmissionSamples;
 using lab::kEmissionViews;
 
-inline Vec3<float> vector_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-inline Frame<float> frame_of(const EmissionViews& views, int i) {
-    return {vector_of(views.tangent[i]), vector_of(views.bitangent[i]), vector_of(views.normal[i])};
+/// Of shading point i, or of as many as a pack has lanes from there on.
+template <class Real>
+Vec3<Real> vector_of(const float (&vectors)[kEmissionViews][3], int i) {
+    constexpr int kLanes = RealTraits<Real>::kLanes;
+    if constexpr (kLanes == 1) {
+        return {vectors[i][0], vectors[i][1], vectors[i][2]};
+    } else {
+        float lanes[3][kLanes];
+        for (int axis = 0; axis < 3; ++axis)
+            for (int k = 0; k < kLanes; ++k) lanes[axis][k] = vectors[i + k][axis];
+        return {Real::load(lanes[0]), Real::load(lanes[1]), Real::load(lanes[2])};
+    }
 }
-inline TexturePlane<float> plane_of(const EmissionViews& views, int i) {
-    const TexturePlane<float> square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    return to_shading_space(square, vector_of(views.position[i]), frame_of(views, i));
+template <class Real>
+Frame<Real> frame_of(const EmissionViews& views, int i) {
+    return {vector_of<Real>(views.tangent, i), vector_of<Real>(views.bitangent, i),
+            vector_of<Real>(views.normal, i)};
+}
+template <class Real>
+TexturePlane<Real> plane_of(const EmissionViews& views, int i) {
+    const Real zero = Real(0), one = Real(1);
+    const TexturePlane<Real> square{
+        {zero, zero, zero}, {one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+    return to_shading_space(square, vector_of<Real>(views.position, i), frame_of<Real>(views, i));
+}
+/// Random numbers of sample k.
+template <class Real>
+Vec2<Real> random_of(const EmissionViews& views, int i, int k) {
+    constexpr int kLanes = RealTraits<Real>::kLanes;
+    if constexpr (kLanes == 1) {
+        return {views.u[i][k][0], views.u[i][k][1]};
+    } else {
+        float lanes[2][kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) {
+            lanes[0][lane] = views.u[i + lane][k][0];
+            lanes[1][lane] = views.u[i + lane][k][1];
+        }
+        return {Real::load(lanes[0]), Real::load(lanes[1])};
+    }
+}
+inline float sum_of(float x) { return x; }
+template <int n>
+float sum_of(const Pack<float, n>& x) {
+    float lanes[n];
+    x.store(lanes);
+    float sum = 0;
+    for (const float value : lanes) sum += value;
+    return sum;
 }
 
 /// A lobe of half width 0.3, tilted.
-inline Ltc<float> lobe() { return Ltc<float>(LtcCoefficients<float>{0.3f, 0.1f, 0.4f, 0, 1, 0}); }
+template <class Real>
+Ltc<Real> lobe() {
+    return Ltc<Real>(LtcCoefficients<Real>{Real(0.3f), Real(0.1f), Real(0.4f), Real(0), Real(1), Real(0)});
+}
 
 /// A value in [0, 1) for a block of texels.
 inline float noise(int i, int j) {
@@ -88,72 +132,88 @@ inline const WindowedLight<float>& portal() {
     return light;
 }
 
-// How each technique is made for a shading point.
+// How each technique is made for a shading point, or for a pack of them.
 
+using Packed = Pack<float, kNativeLanes<float>>;
+
+template <class Number>
 struct Uniform {
-    static PolygonProjectedSolidAngle<float, 4> make(const EmissionViews& views, int i) {
-        return PolygonProjectedSolidAngle<float, 4>(rectangle_in<float>(plane_of(views, i), {0, 0}, {1, 1}));
+    using Real = Number;
+    static PolygonProjectedSolidAngle<Real, 4> make(const EmissionViews& views, int i) {
+        return PolygonProjectedSolidAngle<Real, 4>(
+            rectangle_in<Real>(plane_of<Real>(views, i), {Real(0), Real(0)}, {Real(1), Real(1)}));
     }
 };
-template <class Texture, int n, class Descent = DescentByRadiance>
+template <class Number, class Texture, int n, class Descent = DescentByRadiance>
 struct Textured {
-    static TexturedPolygon<float, n, Descent> make(const EmissionViews& views, int i) {
-        return {plane_of(views, i), textured_light<Texture, n>()};
+    using Real = Number;
+    static TexturedPolygon<Real, n, Descent> make(const EmissionViews& views, int i) {
+        return {plane_of<Real>(views, i), textured_light<Texture, n>()};
     }
 };
-template <class Texture, int n>
+template <class Number, class Texture, int n>
 struct TexturedLobe {
-    static TexturedPolygonLtc<float, n> make(const EmissionViews& views, int i) {
-        return {plane_of(views, i), textured_light<Texture, n>(), {lobe()}};
+    using Real = Number;
+    static TexturedPolygonLtc<Real, n> make(const EmissionViews& views, int i) {
+        return {plane_of<Real>(views, i), textured_light<Texture, n>(), {lobe<Real>()}};
     }
 };
 template <int n>
 struct Environment {
+    using Real = float;
     static EnvironmentCosine<float, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of(views, i)};
+        return {environment<n>(), frame_of<float>(views, i)};
     }
 };
 template <int n>
 struct EnvironmentLobe {
+    using Real = float;
     static EnvironmentLtc<float, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of(views, i), {lobe()}};
+        return {environment<n>(), frame_of<float>(views, i), {lobe<float>()}};
     }
 };
 template <int n>
 struct Portal {
+    using Real = float;
     static WindowedPolygon<float, n> make(const EmissionViews& views, int i) {
-        return {to_shading_space(portal().plane, vector_of(views.position[i]), frame_of(views, i)), portal()};
+        return {
+            to_shading_space(portal().plane, vector_of<float>(views.position, i), frame_of<float>(views, i)),
+            portal()};
     }
 };
 
 template <class Maker>
+inline constexpr int kStep = RealTraits<typename Maker::Real>::kLanes;
+
+template <class Maker>
 float prepare(const EmissionViews& views) {
-    float sum = 0;
-    for (int i = 0; i < kEmissionViews; ++i) sum += Maker::make(views, i).measure();
-    return sum;
+    typename Maker::Real sum = 0;
+    for (int i = 0; i < kEmissionViews; i += kStep<Maker>) sum += Maker::make(views, i).measure();
+    return sum_of(sum);
 }
 
 template <class Maker, int count>
 float sample(const EmissionViews& views) {
-    float sum = 0;
-    for (int i = 0; i < kEmissionViews; ++i) {
+    typename Maker::Real sum = 0;
+    for (int i = 0; i < kEmissionViews; i += kStep<Maker>) {
         const auto technique = Maker::make(views, i);
         for (int k = 0; k < count; ++k) {
-            const auto s = technique.sample({views.u[i][k][0], views.u[i][k][1]});
+            const auto s = technique.sample(random_of<typename Maker::Real>(views, i, k));
             sum += s.pdf + s.wi.z;
         }
     }
-    return sum;
+    return sum_of(sum);
 }
 
 template <class Maker>
 float ask_density(const EmissionViews& views) {
-    float sum = 0;
-    for (int i = 0; i < kEmissionViews; ++i) {
-        const TexturePlane<float> plane = plane_of(views, i);
-        sum += Maker::make(views, i).pdf(normalize(plane.point_at({views.u[i][0][0], views.u[i][0][1]})));
+    using Real = typename Maker::Real;
+    Real sum = 0;
+    for (int i = 0; i < kEmissionViews; i += kStep<Maker>) {
+        const TexturePlane<Real> plane = plane_of<Real>(views, i);
+        sum += Maker::make(views, i).pdf(normalize(plane.point_at(random_of<Real>(views, i, 0))));
     }
-    return sum;
+    return sum_of(sum);
 }
 
 template <class Maker>
@@ -162,13 +222,19 @@ constexpr EmissionTechnique row(const char* name) {
 }
 
 inline constexpr EmissionTechnique kTechniques[] = {
-    row<Uniform>("projected solid angle"),
-    row<Textured<Busy, 16>>("texture, 16 x 16, busy"),
-    row<Textured<Smooth, 16>>("texture, 16 x 16, smooth"),
-    row<Textured<Busy, 8>>("texture, 8 x 8, busy"),
-    row<Textured<Busy, 8, DescentByProduct>>("texture, 8 x 8, busy, product"),
-    row<Textured<Smooth, 8>>("texture, 8 x 8, smooth"),
-    row<TexturedLobe<Busy, 8>>("texture, 8 x 8, busy, lobe"),
+    row<Uniform<float>>("projected solid angle"),
+    row<Textured<float, Busy, 16>>("texture, 16 x 16, busy"),
+    row<Textured<float, Smooth, 16>>("texture, 16 x 16, smooth"),
+    row<Textured<float, Busy, 8>>("texture, 8 x 8, busy"),
+    row<Textured<float, Busy, 8, DescentByProduct>>("texture, 8 x 8, busy, product"),
+    row<Textured<float, Smooth, 8>>("texture, 8 x 8, smooth"),
+    row<TexturedLobe<float, Busy, 8>>("texture, 8 x 8, busy, lobe"),
+    row<Uniform<Packed>>("packs: projected solid angle"),
+    row<Textured<Packed, Busy, 16>>("packs: texture, 16 x 16, busy"),
+    row<Textured<Packed, Busy, 8>>("packs: texture, 8 x 8, busy"),
+    row<Textured<Packed, Busy, 8, DescentByProduct>>("packs: texture, 8 x 8, busy, product"),
+    row<Textured<Packed, Smooth, 8>>("packs: texture, 8 x 8, smooth"),
+    row<TexturedLobe<Packed, Busy, 8>>("packs: texture, 8 x 8, busy, lobe"),
     row<Environment<16>>("environment, 16 x 16"),
     row<Environment<8>>("environment, 8 x 8"),
     row<EnvironmentLobe<8>>("environment, 8 x 8, lobe"),

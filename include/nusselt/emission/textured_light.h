@@ -35,12 +35,15 @@ struct TextureOutline {
     }
 
     /// Whether all of a rectangle is inside.
-    NUSSELT_HD bool contains(const Vec2<T>& low, const Vec2<T>& high) const noexcept {
-        bool inside = true;
+    /// \tparam Real T, or a pack of rectangles.
+    template <class Real = T>
+    NUSSELT_HD mask_t<Real> contains(const Vec2<Real>& low, const Vec2<Real>& high) const noexcept {
+        mask_t<Real> inside(true);
         for (int k = 0; k < count; ++k) {
             const Vec2<T> along = end_of(k) - vertex[k];
-            const Vec2<T> outermost{along.y > T(0) ? high.x : low.x, along.x > T(0) ? low.y : high.y};
-            inside = inside && det(along, outermost - vertex[k]) >= T(0);
+            const Vec2<Real> outermost{along.y > T(0) ? high.x : low.x, along.x > T(0) ? low.y : high.y};
+            inside =
+                inside & (det(broadcast<Real>(along), outermost - broadcast<Real>(vertex[k])) >= Real(0));
         }
         return inside;
     }

@@ -44,7 +44,7 @@ public:
     NUSSELT_HD WindowedPolygon(const WindowPlane<T>& plane, const WindowedLight<T>& light,
                                const Measure& measure = {}) noexcept
         : table_(&light.table), measure_(measure), frame_(plane.frame), distance_(T(0)) {
-        sums_.clear();
+        sums_.clear(true);
         if (!(light.table.mean > T(0)) || !find_window(plane, light)) return;
         find_weights();
     }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_CELL_DESCENT_GLSL
 #define NUSSELT_EMISSION_CELL_DESCENT_GLSL
-// Follows include/nusselt/emission/cell_descent.h @ c40f31f62291
+// Follows include/nusselt/emission/cell_descent.h @ 1cea3dc6b1f8
 /// How samples descend from a cell of the lattice to a texel: in proportion to what texels emit times the cosine over
 /// the squared distance. Twin of DescentByProduct in include/nusselt/emission/cell_descent.h.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TEXTURED_LIGHT_GLSL
 #define NUSSELT_EMISSION_TEXTURED_LIGHT_GLSL
-// Follows include/nusselt/emission/textured_light.h @ 441090079b8d
+// Follows include/nusselt/emission/textured_light.h @ 6905f8c26fe6
 // Follows include/nusselt/emission/textured_light_words.h @ 1f30388c693b
 // Follows include/nusselt/emission/texture_pyramid.h @ fb50e6db8c69
 /// What sampling needs to know about a polygon with a texture, from the words that TexturedLightWords of C++ writes

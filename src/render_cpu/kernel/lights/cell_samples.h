@@ -1,13 +1,16 @@
 #pragma once
 /// Samples in proportion to radiance times a measure, for lights whose radiance varies.
 ///
-/// They come from cells for each shading point, where cells are the lanes: shading points take turns. All that
-/// follows a sample has shading points as lanes again. A light is described by a type `Cells` with
+/// They come from cells for each shading point. Where cells are the lanes, shading points take turns; all that follows a
+/// sample has shading points as lanes again. A light is described by a type `Cells` with
 ///
-///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedPolygon or TexturedLine;
+///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedLine;
 ///     Vec3<float> radiance(sample, lane): what the light emits along a sample [W/(sr m^2)];
 ///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m];
 ///     float density(technique, sample): of one of these techniques at a sample of the other one.
+///
+/// Techniques that have packs of shading points, such as TexturedPolygon, are PackTechnique instead: then the other
+/// functions take and return packs, and `radiance` the sample only.
 
 #include "render_cpu/kernel/paired_techniques.h"
 #include "render_cpu/kernel/single_lane.h"
@@ -59,6 +62,18 @@ private:
     std::uint32_t present_;
 };
 
+/// A technique for all shading points of a packet.
+template <class Technique>
+struct PackTechnique {
+    LaneMask present; ///< lanes that have it
+    Technique technique;
+
+    /// TexturedPolygon::unshadowed() of all lanes.
+    Vector unshadowed() const noexcept {
+        return select(present, technique.unshadowed(), Vector{Real(0), Real(0), Real(0)});
+    }
+};
+
 /// A sample for each shading point of a packet, from one technique of a pair or from the only one.
 struct CellDraws {
     Lanes wi, p, radiance;
@@ -77,6 +92,19 @@ struct CellDraws {
         radiance.y[lane] = light.y;
         radiance.z[lane] = light.z;
         drawn[lane] = sample.pdf;
+    }
+
+    /// Sets some lanes.
+    void set(LaneMask lanes, const LightSample<Real>& sample, const Vector& light,
+             const Real& other_density) noexcept {
+        const auto merge = [&](const Vector& value, Lanes& target) {
+            target = store(select(lanes, value, load(target)));
+        };
+        merge(sample.wi, wi);
+        merge(sample.p, p);
+        merge(light, radiance);
+        select(lanes, sample.pdf, Real::load(drawn)).store(drawn);
+        select(lanes, other_density, Real::load(other)).store(other);
     }
 
     LightSample<Real> sample() const noexcept { return {load(wi), Real::load(drawn), load(p)}; }
@@ -109,12 +137,23 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
     }
 }
 
+/// \copydoc draw_cells
+/// \param other_density function of the sample
+template <class Cells, class Technique, class OtherDensity>
+void draw_cells(const Cells& cells, const PackTechnique<Technique>& technique, LaneMask lanes,
+                const Vec2<Real>& u, const OtherDensity& other_density, CellDraws& draws) noexcept {
+    const auto sample = technique.technique.sample(u);
+    const LaneMask drawn = lanes & technique.present & (sample.pdf != Real(0));
+    draws.set(drawn, {sample.wi, sample.pdf, cells.point(sample)}, cells.radiance(sample),
+              other_density(sample));
+}
+
 /// Samples for all components of the BRDF. \param light with an emission of 1
 template <class Cells, class Shape>
 void add_by_cells(ReflectedLight& reflected, const Cells& cells, const LocalLight<Shape>& light) noexcept {
     const Surface& surface = reflected.surface();
     const auto techniques = cells.diffuse(light.lit);
-    const auto no_other = [](int, const auto&) { return 0.0f; };
+    const auto no_other = [](const auto&...) { return 0.0f; };
     reflected.add(light, [&](std::uint32_t number, SampleSum& sum) {
         CellDraws draws{};
         draw_cells(cells, techniques, light.lit, reflected.random(light, number, kPointPair), no_other,
@@ -177,6 +216,13 @@ private:
     auto density_of(const LaneTechniques<Technique>& techniques) const noexcept {
         return [&](int lane, const auto& sample) {
             return techniques.has(lane) ? cells_.density(techniques[lane], sample) : 0.0f;
+        };
+    }
+
+    template <class Technique>
+    auto density_of(const PackTechnique<Technique>& technique) const noexcept {
+        return [&](const auto& sample) {
+            return select(technique.present, cells_.density(technique.technique, sample), Real(0));
         };
     }
 

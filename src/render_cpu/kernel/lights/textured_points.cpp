@@ -10,8 +10,8 @@ namespace kernel {
 namespace {
 
 constexpr int kCells = render_cpu::kTextureCells;
-using DiffuseCells = TexturedPolygon<float, kCells>;
-using SpecularCells = TexturedPolygonLtc<float, kCells>;
+using DiffuseCells = TexturedPolygon<Real, kCells>;
+using SpecularCells = TexturedPolygonLtc<Real, kCells>;
 
 /// A light with a texture as a packet of shading points sees it, see cell_samples.h.
 class TextureCells {
@@ -19,27 +19,22 @@ public:
     TextureCells(const render_cpu::PolygonTexture& texture, const Surface& surface) noexcept
         : texture_(texture), plane_(local_plane(texture, surface)) {}
 
-    LaneTechniques<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
-        return {lanes, [&](int lane) { return DiffuseCells(plane(lane), light()); }};
+    PackTechnique<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, DiffuseCells(plane_, light())};
     }
-    LaneTechniques<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
-        return {lanes, [&](int lane) {
-                    return SpecularCells(plane(lane), light(), {single_lane<Ltc<float>>(lobe, lane)});
-                }};
+    PackTechnique<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, SpecularCells(plane_, light(), {lobe})};
     }
-    Vec3<float> radiance(const TexturedSample<float>& sample, int /*lane*/) const noexcept {
+    Vector radiance(const TexturedSample<Real>& sample) const noexcept {
         return radiance_at(texture_, sample.at);
     }
-    Vec3<float> point(const TexturedSample<float>& sample) const noexcept { return sample.p; }
+    Vector point(const TexturedSample<Real>& sample) const noexcept { return sample.p; }
     template <class Technique>
-    float density(const Technique& technique, const TexturedSample<float>& sample) const noexcept {
+    Real density(const Technique& technique, const TexturedSample<Real>& sample) const noexcept {
         return technique.pdf_at(sample.at);
     }
 
 private:
-    TexturePlane<float> plane(int lane) const noexcept {
-        return single_lane<TexturePlane<float>>(plane_, lane);
-    }
     const TexturedLight<float, kCells>& light() const noexcept {
         return *static_cast<const TexturedLight<float, kCells>*>(texture_.cells);
     }
