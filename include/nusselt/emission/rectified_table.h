@@ -13,10 +13,9 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Slopes of directions next to the edge of a hemisphere, beyond which nothing is counted: 2^16 in float. The cosines of
-/// steeper directions, at the plane of a light, have few digits.
+/// Slopes of directions next to the edge of a hemisphere, beyond which nothing is counted.
 template <class T>
-inline constexpr T kLargestSlope = power_of_two<T>(std::numeric_limits<T>::digits * 2 / 3);
+inline constexpr T kLargestSlope = power_of_two<T>(std::numeric_limits<T>::max_exponent / 4);
 
 /// The directions (x, y, z) with slopes x / z and y / z in a rectangle, and z > 0.
 template <class T>

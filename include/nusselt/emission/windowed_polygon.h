@@ -31,7 +31,7 @@ struct WindowSample : LightSample<Real> {
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: shading space; the shading point is the origin, the normal +z. For a lobe, wo is in the xz half-plane.
 /// Edge cases: nothing of the light above the horizon or in the lobe, black window, no area, point beyond or in the plane of
-/// the light, or nearer to it than 2^-32 (float) of its extent: pdf = 0, measure 0. Black texels are never chosen. Samples in
+/// the light, or nearer to it than its extent over kLargestSlope: pdf = 0, measure 0. Black texels are never chosen. Samples in
 /// texels that the horizon or the outline cuts may have pdf = 0: densities then integrate to the share of the others.
 template <class T, int n = 8, class Measure = ProjectedCells<T>>
 class WindowedPolygon {
@@ -154,9 +154,8 @@ private:
         const Vec2<T> to_low = low - foot;
         const Vec2<T> to_high = high - foot;
         const T reach = max(max(abs(to_low.x), abs(to_high.x)), max(abs(to_low.y), abs(to_high.y)));
-        // Squares of slopes have to be in range, before the table cuts them.
-        constexpr T kFarthest = power_of_two<T>(std::numeric_limits<T>::max_exponent / 4);
-        if (!(distance_ * kFarthest > reach)) return false;
+        constexpr T kLargest = kLargestSlope<T>;
+        if (!(distance_ * kLargest > reach)) return false;
 
         // Offsets in the plane are precise from the point next to the foot on.
         const T inverse = T(1) / distance_;
@@ -168,9 +167,14 @@ private:
         const RectifiedTable<T>& table = *table_;
         const SlopeInterval<T> box_x = interval(low.x, high.x, foot.x);
         const SlopeInterval<T> box_y = interval(low.y, high.y, foot.y);
-        // What the table covers, and of this what is not black.
-        SlopeInterval<T> x = box_x.cut(table.domain.low.x, table.domain.high.x);
-        SlopeInterval<T> y = box_y.cut(table.domain.low.y, table.domain.high.y);
+        // What the table covers, and of this what is not black. Directions that are almost in the plane of the light have few
+        // digits of their slopes left, and next to no solid angle.
+        constexpr T kSteepest = power_of_two<T>(std::numeric_limits<T>::digits * 2 / 3);
+        const auto within = [&](const T& slope) { return min(max(slope, -kSteepest), kSteepest); };
+        const Vec2<T> table_low{within(table.domain.low.x), within(table.domain.low.y)};
+        const Vec2<T> table_high{within(table.domain.high.x), within(table.domain.high.y)};
+        SlopeInterval<T> x = box_x.cut(table_low.x, table_high.x);
+        SlopeInterval<T> y = box_y.cut(table_low.y, table_high.y);
         if (x.is_empty() || y.is_empty()) return false;
 
         const TableAxis<T> across =
@@ -185,9 +189,9 @@ private:
         const TexelRectangle lit = window.lit();
         if (lit.begin[0] == lit.end[0]) return false;
         x = lit_part(box_x, window.columns, lit.begin[0], lit.end[0], table.angle_low.x, table.texel_size.x,
-                     table.domain.low.x, table.domain.high.x);
+                     table_low.x, table_high.x);
         y = lit_part(box_y, window.rows, lit.begin[1], lit.end[1], table.angle_low.y, table.texel_size.y,
-                     table.domain.low.y, table.domain.high.y);
+                     table_low.y, table_high.y);
         if (x.is_empty() || y.is_empty()) return false;
         columns_ = WindowLines<T, n>(x, table.width, table.angle_low.x, table.texel_size.x);
         rows_ = WindowLines<T, n>(y, table.height, table.angle_low.y, table.texel_size.y);

@@ -39,8 +39,8 @@ struct PreparedPortal {
     template <class Radiance>
     PreparedPortal(const std::vector<Vec3<float>>& vertices, const Frame<float>& frame, int map_size,
                    const Radiance& radiance) {
-        // Texels of the map and of the table are about as large. More do not fit into caches.
-        const int texels = std::clamp(map_size, 16, 1024);
+        // The map varies within texels of the table, which remains as noise: they are half as large as those of the map.
+        const int texels = std::clamp(2 * map_size, 16, 1024);
         // An interpolated peak of a single texel is two texels wide, so that some lookup finds it.
         const int lookups = std::max(2 * map_size / texels, 2);
         sums.resize(static_cast<std::size_t>(RectifiedTable<float>::size(texels, texels)));

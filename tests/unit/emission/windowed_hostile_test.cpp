@@ -103,6 +103,24 @@ TEST(WindowedPolygon, LightsAndPortalsAreAlikeNextToTheirPlane) {
     }
 }
 
+/// From points next to it, a light fills the hemisphere.
+TEST(WindowedPolygon, LargeLightsKeepTheirDensity) {
+    const StoredTable<float> stored([](const auto&) { return grey<float>(1); },
+                                    nusselt::RectifiedDomain<float>::hemisphere(), 16, 16, 1);
+    for (const float size : {1e3f, 1e5f, 1e6f, 1e7f, 1e9f}) {
+        const auto portal = portal_of(rectangle_at<float>(1, -size, size, -size, size), stored.table);
+        const WindowedPolygon<float, 8> technique(to_shading_space(portal.plane, {0, 0, 0}, upright<float>()),
+                                                  portal);
+        EXPECT_NEAR(technique.measure(), nusselt::kPi<float>, 1e-4f) << size;
+        for (int k = 0; k < 1000; ++k) {
+            const auto s = technique.sample(
+                {(static_cast<float>(k) + 0.5f) / 1000, std::fmod(0.618034f * static_cast<float>(k), 1.0f)});
+            ASSERT_NEAR(s.wi.z / s.pdf, nusselt::kPi<float>, 2e-3f) << size << " " << k;
+            ASSERT_NEAR(technique.pdf(s.wi) / s.pdf, 1, 2e-3f) << size << " " << k;
+        }
+    }
+}
+
 /// A texel of 1e30 takes all samples of windows with it, and none of the others.
 TEST(WindowedPolygon, OneHugeTexelDoesNoHarm) {
     const TexelMap map(64, [](const Vector& w) {
