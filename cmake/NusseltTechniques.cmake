@@ -218,7 +218,7 @@ foreach(name IN LISTS nusselt_techniques)
         string(APPEND rows "    {\"${name}\", \"${light}\", \"${${row}_density}\", \"${${row}_source}\", \"${${row}_header}\", \"${${row}_renders}\"},\n")
     endif()
     # No light of the proofs comes with a BRDF or with radiance.
-    if(NOT light MATCHES "_on_brdf$|^textured|^environment")
+    if(NOT light MATCHES "_on_brdf$|^textured|^windowed|^environment")
         nusselt_describe_technique(${name})
         string(APPEND kinds "${text}\n")
         if(${row}_is_related AND light STREQUAL polygon)

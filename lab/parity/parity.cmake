@@ -12,7 +12,8 @@ add_library(nusselt_lab_parity STATIC
     parity/techniques.cpp
     parity/textured_parity.cpp
     parity/twin_shader.cpp
-    parity/vertex_bounds.cpp)
+    parity/vertex_bounds.cpp
+    parity/windowed_parity.cpp)
 # Most of the time is spent on reading headers and instantiating templates.
 target_compile_options(nusselt_lab_parity PRIVATE -O1)
 # Compiling this unit takes 58 s instead of 95 s, and its tests, which take less than that, become a little slower only.
@@ -50,6 +51,8 @@ set(bounds_of_polygon_on_lobe 4 8)
 set(bounds_of_rectangle 4)
 set(bounds_of_textured_polygon 8)
 set(bounds_of_textured_polygon_on_lobe 8)
+set(bounds_of_windowed_polygon 8)
+set(bounds_of_windowed_polygon_on_lobe 8)
 foreach(light line line_on_lobe cylinder cylinder_on_lobe environment environment_on_lobe)
     set(bounds_of_${light} 2)
 endforeach()

@@ -52,6 +52,7 @@ const char* reason_of_vacuous_budget(const std::string& where);
 void add_technique_cases(std::vector<ParityCase>& cases);
 void add_textured_cases(std::vector<ParityCase>& cases);
 void add_environment_cases(std::vector<ParityCase>& cases);
+void add_windowed_cases(std::vector<ParityCase>& cases);
 void add_vertex_bound_cases(std::vector<ParityCase>& cases);
 void add_function_cases(std::vector<ParityCase>& cases);
 void add_ltc_cases(std::vector<ParityCase>& cases);

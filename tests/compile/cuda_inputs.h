@@ -9,6 +9,7 @@ struct Inputs {
     const nusselt::Vec3<float>* points;
     const nusselt::Vec3<float>* normals;
     const nusselt::Vec2<float>* u;
+    const nusselt::RectifiedSums* sums; ///< of a table of radiance by direction
 };
 
 __device__ inline int thread_index() { return static_cast<int>(__nvvm_read_ptx_sreg_tid_x()); }
@@ -96,6 +97,36 @@ __device__ void use_textured_polygon(const Inputs& inputs, float* result) {
 template <class Technique>
 __device__ void use_textured_polygon_on_lobe(const Inputs& inputs, float* result) {
     use_texture<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
+}
+
+/// A portal with a table of 4 x 4 texels, which only hosts make.
+template <class Technique, class... Lobe>
+__device__ void use_window(const Inputs& inputs, float* result, const Lobe&... lobe) {
+    const int i = thread_index();
+    const nusselt::RectifiedTable<float> table{4,
+                                               4,
+                                               nusselt::RectifiedDomain<float>::hemisphere(),
+                                               {-1.5f, -1.5f},
+                                               {0.8f, 0.8f},
+                                               1,
+                                               1,
+                                               inputs.sums,
+                                               inputs.corners};
+    const auto frame = nusselt::Frame<float>::from_normal(inputs.normals[i]);
+    const auto light = nusselt::make_portal(frame, inputs.corners, 4, table);
+    const Technique technique(nusselt::to_shading_space(light.plane, inputs.points[i], frame), light,
+                              {lobe...});
+    const auto sample = technique.sample(inputs.u[i]);
+    result[i] = technique.pdf(sample.wi) - sample.pdf + technique.invert(sample.wi).x + sample.at.x +
+                technique.measure() + technique.unshadowed().x;
+}
+template <class Technique>
+__device__ void use_windowed_polygon(const Inputs& inputs, float* result) {
+    use_window<Technique>(inputs, result);
+}
+template <class Technique>
+__device__ void use_windowed_polygon_on_lobe(const Inputs& inputs, float* result) {
+    use_window<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
 }
 
 /// A map that the kernel prepares, too: renderers do that once.

@@ -31,7 +31,7 @@ struct RectifiedDomain {
 /// Sums over all texels (i, j) with i and j below those of an entry. Integers have exact differences, where those of floats
 /// are wrong by percents next to a sun. Each of the three adds up to little more than 2^52 over the table.
 ///
-/// A twin in GLSL without 64-bit integers reads pairs of 32-bit words and subtracts with borrow (usubBorrow()): just as exact.
+/// The twin in GLSL, which has no 64-bit integers, subtracts pairs of 32-bit words with borrow: just as exact.
 struct RectifiedSums {
     std::int64_t weight;      ///< of mean radiance times solid angle, rounded upwards
     std::int64_t square;      ///< of squared mean radiance times solid angle, rounded upwards

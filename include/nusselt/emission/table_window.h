@@ -88,7 +88,7 @@ struct TexelRectangle {
 namespace detail {
 
 /// Weight and solid angle of all texels before a position, where parts of texels have their share. Differences have errors of
-/// some units of the integers. A twin without double adds up TableWindow::sums() for each cell instead.
+/// some units of the integers. The twin in GLSL, which has no double, adds up TableWindow::sums() for each cell instead.
 template <class T>
 struct SumsBelow {
     TableNumber<T> weight, solid_angle;

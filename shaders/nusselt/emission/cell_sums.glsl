@@ -95,16 +95,21 @@ CellChoice cell_sums_choose(CellSums self, vec2 u) {
     return cell;
 }
 
-/// The cell at a point of the lattice.
-/// \param at in [0, 1)^2.
-CellChoice cell_sums_at(CellSums self, vec2 at) {
+/// A cell by its column and row.
+CellChoice cell_sums_cell(CellSums self, ivec2 at) {
     CellChoice cell;
-    cell.at = clamp(ivec2(at * float(kNusseltCells)), ivec2(0), ivec2(kNusseltCells - 1));
-    cell.x = cell_sums_column_step(self, cell.at.x);
-    cell.y = cell_sums_cell_step(self, cell.at.x, cell.at.y);
+    cell.at = at;
+    cell.x = cell_sums_column_step(self, at.x);
+    cell.y = cell_sums_cell_step(self, at.x, at.y);
     cell.probability = sum_step_probability(cell.x) * sum_step_probability(cell.y);
     cell.u = vec2(0.0);
     return cell;
+}
+
+/// The cell at a point of the lattice.
+/// \param at in [0, 1)^2.
+CellChoice cell_sums_at(CellSums self, vec2 at) {
+    return cell_sums_cell(self, clamp(ivec2(at * float(kNusseltCells)), ivec2(0), ivec2(kNusseltCells - 1)));
 }
 
 /// What cell_sums_choose() undoes.

@@ -1,0 +1,22 @@
+#pragma once
+/// Parity of techniques for polygons whose radiance depends on the direction. Their lights are made here: those of the
+/// other techniques shine alike in all directions.
+
+#include "gpu/device.h"
+#include "lab/parity/parity_check.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nusselt::parity {
+
+/// The techniques of nusselt/emission/windowed_polygon.h.
+enum class WindowedTechnique { diffuse, on_lobe };
+
+/// Judges shaders of one technique on all classes of lights, with about `count` scenes in total.
+/// \return a verdict for each shader
+std::vector<Verdict> judge_windowed(const gpu::Device& device, WindowedTechnique technique,
+                                    const std::vector<std::span<const std::uint32_t>>& shaders, int count);
+
+} // namespace nusselt::parity

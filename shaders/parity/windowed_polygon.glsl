@@ -1,0 +1,14 @@
+// Inputs: a light whose radiance depends on the direction, a surface, and two random numbers.
+#include "parity/windowed_input.glsl"
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    const uint begin = kWindowedSize * i;
+    const WindowPlane plane = input_plane(begin);
+
+    Technique technique = technique_prepare(plane, input_light(begin));
+    const TexturedSample s = technique_sample(technique, input_random(begin));
+    write_windowed(i, s, technique.cells, plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+                   technique_measure(technique));
+}
