@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TEXTURE_PART_GLSL
 #define NUSSELT_EMISSION_TEXTURE_PART_GLSL
-// Follows include/nusselt/emission/textured_light.h @ 441090079b8d
+// Follows include/nusselt/emission/textured_light.h @ 6905f8c26fe6
 /// Convex parts of a texture, and how outlines cut rectangles. Twin of TexturePart and of what TextureOutline computes
 /// in include/nusselt/emission/textured_light.h.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_WINDOWED_CELLS_GLSL
 #define NUSSELT_EMISSION_WINDOWED_CELLS_GLSL
-// Follows include/nusselt/emission/windowed_polygon.h @ 547f4477a4b3
+// Follows include/nusselt/emission/windowed_polygon.h @ 5afa89404501
 /// What WindowedPolygon and WindowedPolygonLtc share: the window of a light in its table, weights of cells, and samples
 /// of texels. Twin of include/nusselt/emission/windowed_polygon.h, with 8 x 8 cells.
 
@@ -117,9 +117,11 @@ WindowedView windowed_view_prepare(WindowPlane plane, uint light) {
     self.nearest = vec2(nusselt_max(nusselt_min(foot.x, high.x), low.x), nusselt_max(nusselt_min(foot.y, high.y), low.y));
     SlopeInterval box_x = window_box_interval(low.x, high.x, self.nearest.x, foot.x, inverse);
     SlopeInterval box_y = window_box_interval(low.y, high.y, self.nearest.y, foot.y, inverse);
-    // What the table covers, and of this what is not black.
-    vec2 domain_low = rectified_table_domain_low(self.table);
-    vec2 domain_high = rectified_table_domain_high(self.table);
+    // What the table covers, and of this what is not black. Directions that are almost in the plane of the light have few
+    // digits of their slopes left, and next to no solid angle.
+    const vec2 steepest = vec2(65536.0);
+    vec2 domain_low = clamp(rectified_table_domain_low(self.table), -steepest, steepest);
+    vec2 domain_high = clamp(rectified_table_domain_high(self.table), -steepest, steepest);
     vec2 angle_low = rectified_table_angle_low(self.table);
     vec2 texel_size = rectified_table_texel_size(self.table);
     ivec2 size = rectified_table_size(self.table);
