@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace nusselt::render_cpu {
 
@@ -26,13 +28,15 @@ constexpr int kLuminaireTexels = 256;
 constexpr int kSpreadTexels = 128;
 constexpr int kLookups = 2;
 
-/// The frame of a side within that of its profile: along the half-plane of 0 degrees if it can, so that the sides of rectangles
-/// and boxes are along its axes.
+/// The frame of a side within that of its profile.
 struct SideFrame {
-    explicit SideFrame(const Double3& normal) : n(normal) {
-        const Double3 reference = std::fabs(n.x) < 0.9 ? Double3{1, 0, 0} : Double3{0, 1, 0};
-        t = normalized(reference - dot(reference, n) * n);
-        b = cross(n, t);
+    /// \param along a vector that is to be in the plane of the first axis and the normal
+    SideFrame(const Double3& along, const Double3& normal)
+        : t(normalized(along - dot(along, normal) * normal)), b(cross(normal, t)), n(normal) {}
+
+    /// Along the half-plane of 0 degrees if there is one.
+    static SideFrame of_profile(const Double3& normal) {
+        return {std::fabs(normal.x) < 0.9 ? Double3{1, 0, 0} : Double3{0, 1, 0}, normal};
     }
     Double3 to_profile(const Vec3<float>& w) const {
         return double{w.x} * t + double{w.y} * b + double{w.z} * n;
@@ -41,33 +45,107 @@ struct SideFrame {
     Double3 t, b, n;
 };
 
+bool is_rectangle(const scene::PolygonLight& light) {
+    if (light.vertices.size() != 4) return false;
+    constexpr double kSquare = 1e-4;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Double3 corner = to_double(light.vertices[(i + 1) % 4]);
+        const Double3 before = normalized(corner - to_double(light.vertices[i]));
+        const Double3 after = normalized(to_double(light.vertices[(i + 2) % 4]) - corner);
+        if (!(std::fabs(dot(before, after)) < kSquare)) return false;
+    }
+    return true;
+}
+
+/// Above this number of tables, rectangles no longer have tables along their sides.
+constexpr std::size_t kMostTables = 64;
+
+/// The largest intensities of a luminaire by angle from its axis.
+class Bands {
+public:
+    explicit Bands(const scene::IntensityTable& table) : vertical_(table.vertical), peak_(vertical_.size()) {
+        for (std::size_t i = 0; i < table.candelas.size(); ++i) {
+            double& peak = peak_[i % peak_.size()];
+            peak = std::max(peak, table.candelas[i]);
+        }
+    }
+    /// From where on it is dark [rad].
+    double end() const {
+        std::size_t i = peak_.size() - 1;
+        while (i > 0 && peak_[i - 1] == 0 && peak_[i] == 0) --i;
+        return vertical_[i];
+    }
+    /// At least as large as any intensity between two angles [rad].
+    double peak(double from, double to) const {
+        if (to < vertical_.front() || from > vertical_.back()) return 0;
+        const auto first = std::upper_bound(vertical_.begin(), vertical_.end(), from);
+        const auto last = std::lower_bound(vertical_.begin(), vertical_.end(), to);
+        const auto begin = std::max<std::ptrdiff_t>(first - vertical_.begin() - 1, 0);
+        const auto end = std::min<std::ptrdiff_t>(last - vertical_.begin() + 1, std::ssize(vertical_));
+        return *std::max_element(peak_.begin() + begin, peak_.begin() + end);
+    }
+
+private:
+    const std::vector<double>& vertical_;
+    std::vector<double> peak_;
+};
+
 /// Where a table has to be: around their axis, luminaires are dark beyond their last angle.
 RectifiedDomain<float> domain_of(const scene::EmissionProfile& profile, const Double3& normal) {
     double slope = scene::spread_slope(profile).value_or(double{kLargestSlope<float>});
     if (profile.luminaire != nullptr && normal.z > 1 - 1e-6) {
-        const double last = profile.luminaire->profile.table().vertical.back();
-        if (last < 1.5) slope = std::min(slope, 1.01 * std::tan(last));
+        const double end = Bands(profile.luminaire->profile.table()).end();
+        if (end < 1.5) slope = std::min(slope, 1.01 * std::tan(end));
     }
     const auto s = static_cast<float>(std::clamp(slope, 1e-6, double{kLargestSlope<float>}));
     return {{-s, -s}, {s, s}};
 }
 
+/// The radiance of a table in proportion. Luminaires may have beams between all lookups, so that every direction whose angle from
+/// the axis has light gets a little.
+class TableRadiance {
+public:
+    /// \param texel [rad]
+    TableRadiance(const scene::ProfiledEmission& emission, const SideFrame& frame, double texel)
+        : profile_(*emission.profile),
+          frame_(frame),
+          factor_(emission.mean > 0 ? 1 / double{emission.mean} : 0),
+          reach_(1.5 * texel) {
+        if (profile_.luminaire != nullptr) bands_.emplace(profile_.luminaire->profile.table());
+    }
+
+    Vec3<float> operator()(const Vec3<float>& w) const {
+        double luminance = 1;
+        if (bands_) {
+            constexpr double kLittle = 1e-3;
+            const Double3 direction = frame_.to_profile(w);
+            const double vertical = std::atan2(std::hypot(direction.x, direction.y), direction.z);
+            const double peak = bands_->peak(vertical - reach_, vertical + reach_);
+            luminance = luminance_of_profile(profile_, direction) +
+                        kLittle * peak / visible_area(profile_, direction);
+        }
+        const auto value = static_cast<float>(factor_ * luminance * passed_share(profile_, double{w.z}));
+        return {value, value, value};
+    }
+
+private:
+    const scene::EmissionProfile& profile_;
+    SideFrame frame_;
+    double factor_;
+    double reach_; ///< the diagonal of a texel [rad]
+    std::optional<Bands> bands_;
+};
+
 } // namespace
 
 struct PolygonProfiles::Table {
-    Table(const scene::ProfiledEmission& emission, const Double3& normal)
+    Table(const scene::ProfiledEmission& emission, const SideFrame& frame)
         : texels(emission.profile->luminaire != nullptr ? kLuminaireTexels : kSpreadTexels),
           sums(static_cast<std::size_t>(RectifiedTable<float>::size(texels, texels))),
           colour(sums.size()) {
-        const scene::EmissionProfile& profile = *emission.profile;
-        const SideFrame frame(normal);
-        const double factor = emission.mean > 0 ? 1 / double{emission.mean} : 0;
-        const auto radiance = [&](const Vec3<float>& w) {
-            const auto value = static_cast<float>(factor * passed_share(profile, double{w.z}) *
-                                                  luminance_of_profile(profile, frame.to_profile(w)));
-            return Vec3<float>{value, value, value};
-        };
-        table = make_rectified_table(radiance, domain_of(profile, normal), texels, texels, kLookups,
+        const RectifiedDomain<float> domain = domain_of(*emission.profile, frame.n);
+        const double texel = 2 * std::atan(double{domain.high.x}) / texels;
+        table = make_rectified_table(TableRadiance(emission, frame, texel), domain, texels, texels, kLookups,
                                      sums.data(), colour.data());
     }
 
@@ -78,28 +156,37 @@ struct PolygonProfiles::Table {
 };
 
 struct PolygonProfiles::Side {
+    Double3 t, b, n; ///< in the frame of the profile
+    const RectifiedTable<float>* table;
+};
+
+struct PolygonProfiles::Light {
     WindowedLight<float> light;
 };
 
 PolygonProfiles::PolygonProfiles() = default;
 PolygonProfiles::~PolygonProfiles() = default;
 
-const PolygonProfiles::Table& PolygonProfiles::table_of(const scene::ProfiledEmission& emission,
-                                                        const Double3& normal) {
+/// A table for a side, in the frame of an edge, or of the profile.
+PolygonProfiles::Side PolygonProfiles::side_of(const scene::ProfiledEmission& emission, const Double3& normal,
+                                               const Double3* edge) {
     const scene::EmissionProfile& profile = *emission.profile;
+    const SideFrame frame = edge != nullptr && tables_.size() < kMostTables ? SideFrame(*edge, normal)
+                                                                            : SideFrame::of_profile(normal);
     std::vector<long> shape;
     const auto add = [&](double number) { shape.push_back(std::lround(number / kSameNumber)); };
     const auto add_direction = [&](const Double3& v) { add(v.x), add(v.y), add(v.z); };
     if (profile.luminaire != nullptr) {
-        add_direction(normal);
+        add_direction(frame.n);
+        add_direction(frame.t);
         for (const scene::LuminousFace& face : profile.faces) {
             add_direction(face.normal);
             add(face.area / profile.faces[0].area);
         }
     }
     std::unique_ptr<Table>& table = tables_[{profile.luminaire.get(), profile.spread, std::move(shape)}];
-    if (table == nullptr) table = std::make_unique<Table>(emission, normal);
-    return *table;
+    if (table == nullptr) table = std::make_unique<Table>(emission, frame);
+    return {frame.t, frame.b, frame.n, &table->table};
 }
 
 std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::PolygonLight& light) {
@@ -137,13 +224,15 @@ std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polygo
         return scene::to_vec(
             to_float(v.x * placement.x_axis + v.y * placement.y_axis + v.z * placement.z_axis));
     };
+    const Double3 edge = to_profile(to_double(light.vertices[1]) - to_double(light.vertices[0]));
+    const Double3* const aligned = is_rectangle(light) ? &edge : nullptr;
     for (int side = 0; side < (light.two_sided ? 2 : 1); ++side) {
-        const Double3 normal = to_profile((side == 0 ? 1.0 : -1.0) * placement.normal);
-        const SideFrame frame(normal);
-        sides_.push_back(std::make_unique<Side>(Side{
-            make_profiled_light({to_world(frame.t), to_world(frame.b), to_world(frame.n)}, corners.data(),
-                                static_cast<int>(corners.size()), table_of(emission, normal).table)}));
-        record.side[side] = &sides_.back()->light;
+        const Side frame =
+            side_of(emission, to_profile((side == 0 ? 1.0 : -1.0) * placement.normal), aligned);
+        lights_.push_back(std::make_unique<Light>(
+            Light{make_profiled_light({to_world(frame.t), to_world(frame.b), to_world(frame.n)},
+                                      corners.data(), static_cast<int>(corners.size()), *frame.table)}));
+        record.side[side] = &lights_.back()->light;
     }
     records_.push_back(record);
     return static_cast<std::int32_t>(records_.size() - 1);

@@ -26,19 +26,22 @@ public:
     const PolygonProfile* records() const { return records_.data(); }
 
 private:
+    struct Light;
     struct Side;
     struct Table;
-    /// Luminaire, spread, and the rounded normal of the side, and those and the shares of the area of all faces: what a table
+    /// Luminaire, spread, the rounded axes of the side, and the normals and shares of the area of all faces: what a table
     /// follows from. Scenes have thousands of luminaires of one kind.
     using TableKey = std::tuple<const scene::Luminaire*, double, std::vector<long>>;
 
     /// \param normal of the side, in the frame of the profile
-    const Table& table_of(const scene::ProfiledEmission& emission, const scene::Double3& normal);
+    /// \param edge   along which its table is to be, null for any
+    Side side_of(const scene::ProfiledEmission& emission, const scene::Double3& normal,
+                 const scene::Double3* edge);
 
     LuminaireTables luminaires_;
     std::vector<std::vector<LuminousFaceRecord>> faces_;
     std::map<TableKey, std::unique_ptr<Table>> tables_;
-    std::vector<std::unique_ptr<Side>> sides_;
+    std::vector<std::unique_ptr<Light>> lights_;
     std::vector<PolygonProfile> records_;
 };
 

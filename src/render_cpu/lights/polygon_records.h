@@ -22,9 +22,6 @@ struct PolygonTexture {
     const void* cells;          ///< a TexturedLight<float, kTextureCells>
 };
 
-/// Columns and rows of the lattice of cells over a light with a profile.
-inline constexpr int kProfileCells = 4;
-
 /// A face of the shape that shines as a luminaire, in the frame of its profile.
 struct LuminousFaceRecord {
     scene::Float3 normal;

@@ -9,7 +9,8 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-constexpr int kCells = render_cpu::kProfileCells;
+/// Columns and rows of the lattice of cells.
+constexpr int kCells = 8;
 using DiffuseCells = WindowedPolygon<float, kCells>;
 using SpecularCells = WindowedPolygonLtc<float, kCells>;
 
@@ -61,16 +62,60 @@ private:
 template <int N>
 using WithoutProfile = LocalLight<ConvexPolygon<Real, N>>;
 
-template <int N, void (*add)(ReflectedLight&, const ProfileCells&, const WithoutProfile<N>&) noexcept>
-void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
-                  std::int32_t index) noexcept {
-    auto& reflected = static_cast<ReflectedLight&>(packet);
+template <int N>
+using AddCells = void (*)(ReflectedLight&, const ProfileCells&, const WithoutProfile<N>&) noexcept;
+
+template <int N>
+void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& lights, std::int32_t index,
+                    AddCells<N> add) noexcept {
     const auto light = PolygonLight<N>::local(reflected, lights, index);
     if (!any(light.lit)) return;
     const LaneMask is_behind = light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
     const ProfileCells cells(*light.shape.profile, reflected.surface(), is_behind);
     const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
     add(reflected, cells, plain);
+}
+
+template <int N, AddCells<N> add>
+void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                  std::int32_t index) noexcept {
+    add_by_profile<N>(static_cast<ReflectedLight&>(packet), lights, index, add);
+}
+
+/// Points from which the profile hardly varies over the light: all of it is in a few degrees, or in a part of the spread.
+template <int N>
+LaneMask sees_few_directions(const LocalPolygon<N>& shape) noexcept {
+    constexpr float kFewDirections = 0.15f;
+    const float slope = shape.profile->inverse_slope;
+    const float largest = kFewDirections / max(slope, 1.0f);
+    Real nearest = dot(shape.vertex[0], shape.vertex[0]);
+    Real longest = dot(shape.edge[0], shape.edge[0]);
+    for (int j = 1; j < N; ++j) {
+        nearest = min(nearest, dot(shape.vertex[j], shape.vertex[j]));
+        longest = max(longest, dot(shape.edge[j], shape.edge[j]));
+    }
+    return longest < Real(largest * largest) * nearest;
+}
+
+/// Samples from cells where the profile varies over the light. Elsewhere they would cost much and gain little.
+template <int N, AddCells<N> add>
+void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                          std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = PolygonLight<N>::local(reflected, lights, index);
+    const LaneMask is_far = light.lit & sees_few_directions(light.shape);
+    const LaneMask is_near = light.lit & !is_far;
+    const render_cpu::RenderJob& job = reflected.job();
+    if (any(is_near)) {
+        ReflectedLight part = reflected.with(is_near, job.samples_per_light);
+        add_by_profile<N>(part, lights, index, add);
+        reflected.add(part);
+    }
+    if (any(is_far)) {
+        ReflectedLight part = reflected.with(is_far, job.samples_per_light);
+        polygon_points<N>(job)(part, lights, index);
+        reflected.add(part);
+    }
 }
 
 template <int N>
@@ -81,8 +126,10 @@ render_cpu::AddLight choose_technique(const render_cpu::RenderJob& job) noexcept
     const bool is_projected = job.technique == Technique::projected_solid_angle ||
                               job.technique == Technique::projected_solid_angle_biased;
     if (job.emission_sampling == render::EmissionSampling::product && is_projected) {
-        if (job.strategies == Strategies::diffuse) return &add_profiled<N, &add_by_cells>;
-        if (job.strategies == Strategies::diffuse_ltc) return &add_profiled<N, &add_by_cell_pair>;
+        if (job.strategies == Strategies::diffuse) return &add_profiled_samples<N, &add_by_cells>;
+        // The optimal heuristic needs densities whose integral is one. Where an outline cuts a texel it is less.
+        if (job.strategies == Strategies::diffuse_ltc && job.mis != render::Mis::optimal)
+            return &add_profiled_samples<N, &add_by_cell_pair>;
     }
     return polygon_points<N>(job);
 }

@@ -145,12 +145,16 @@ double least_visible_area(const EmissionProfile& profile) {
     return kGrazingCosine * largest;
 }
 
-double luminance_of_profile(const EmissionProfile& profile, const Double3& direction) {
-    if (profile.luminaire == nullptr) return 1;
+double visible_area(const EmissionProfile& profile, const Double3& direction) {
     double visible = 0;
     for (const LuminousFace& face : profile.faces)
         visible += face.area * std::max(dot(face.normal, direction), 0.0);
-    return profile.luminaire->profile.intensity(direction) / std::max(visible, least_visible_area(profile));
+    return std::max(visible, least_visible_area(profile));
+}
+
+double luminance_of_profile(const EmissionProfile& profile, const Double3& direction) {
+    if (profile.luminaire == nullptr) return 1;
+    return profile.luminaire->profile.intensity(direction) / visible_area(profile, direction);
 }
 
 std::optional<double> spread_slope(const EmissionProfile& profile) {

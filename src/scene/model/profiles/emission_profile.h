@@ -39,6 +39,9 @@ struct EmissionProfile {
 /// \param direction of unit length, in the frame of the profile
 double luminance_of_profile(const EmissionProfile& profile, const Double3& direction);
 
+/// The area of the faces that is visible in a direction, at least least_visible_area() [m^2]. \copydetails luminance_of_profile
+double visible_area(const EmissionProfile& profile, const Double3& direction);
+
 /// Visible areas below this one count as this one, see kGrazingCosine [m^2].
 double least_visible_area(const EmissionProfile& profile);
 
