@@ -27,7 +27,8 @@ const int kTubesConstant = kFirstLightConstant + 2; ///< solid or open
 const int kPointsConstant = kFirstLightConstant + 3;
 const int kPointImagesConstant = kFirstLightConstant + 4; ///< points whose intensity comes from an image
 const int kDistantsConstant = kFirstLightConstant + 5;
-const int kConstantCount = kFirstLightConstant + 6;
+const int kTexturedPolygonsConstant = kFirstLightConstant + 6; ///< polygons that emit an image
+const int kConstantCount = kFirstLightConstant + 7;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -36,12 +37,29 @@ const int kPolygonCornersBinding = kFirstLightBinding + 1;
 const int kLineLightsBinding = kFirstLightBinding + 2;
 const int kPointLightsBinding = kFirstLightBinding + 3;
 const int kDistantLightsBinding = kFirstLightBinding + 4;
-const int kFirstBindingAfterLights = kFirstLightBinding + 5;
+const int kPolygonTexturesBinding = kFirstLightBinding + 5;
+const int kEmissionWordsBinding = kFirstLightBinding + 6; ///< texels and prepared data of all emission that varies
+const int kFirstBindingAfterLights = kFirstLightBinding + 7;
 
 struct PolygonLightRecord {
     float normal[3];
-    float radiance[3];
+    float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
+    int texture_number; ///< index of its PolygonTextureRecord, -1 for uniform radiance
+};
+
+/// The image that a polygon emits.
+struct PolygonTextureRecord {
+    // A TexturePlane in world space.
+    float corner[3];
+    float side_x[3];
+    float side_y[3];
+    float normal[3];
+    float inverse_mean[3]; ///< of the radiance; 0 for channels that are black everywhere
+    int width;
+    int height;
+    uint first_texel; ///< emission word that its texels begin with: rows of red, green and blue radiance
+    uint first_word;  ///< emission word that its TexturedLightWords begin with
 };
 
 // Values of LineLightRecord::model, those of scene::TubeModel.

@@ -19,8 +19,9 @@ const int kStrategiesConstant = 6;
 const int kMisConstant = 7;
 const int kSamplerConstant = 8;
 const int kBrdfConstant = 9;
+const int kEmissionSamplingConstant = 10;
 // ... then those of lights (shaders/interface/lights.h).
-const int kFirstLightConstant = 10;
+const int kFirstLightConstant = 11;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

@@ -16,14 +16,19 @@ struct Reflected {
     Counts counts;
 };
 
+/// Adds a share of what a light emits.
+void add_share(inout Reflected reflected, vec3 emission, vec3 share) {
+    if (is_finite(share))
+        reflected.radiance += emission * share;
+    else
+        ++reflected.counts.rejected_samples;
+}
+
 /// Adds what the surface reflects of a light.
 /// \param integrals over the light, of the diffuse and of the specular lobe
 void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
-    vec3 share = integrals.x * reflected.glossy.diffuse_albedo + integrals.y * reflected.glossy.specular_albedo;
-    if (is_finite(share))
-        reflected.radiance += role.emission * share;
-    else
-        ++reflected.counts.rejected_samples;
+    add_share(reflected, role.emission,
+              integrals.x * reflected.glossy.diffuse_albedo + integrals.y * reflected.glossy.specular_albedo);
 }
 
 #include "passes/lights/line_integrals.glsl"

@@ -87,6 +87,15 @@ TechniquePair make_technique_pair(GlossySurface surface, vec2 integrals) {
     return TechniquePair(estimator, one_sample_choice_prepare(estimator.techniques));
 }
 
+/// The same for a light whose radiance varies.
+/// \param diffuse, specular integrals of the normalised components times radiance
+TechniquePair make_technique_pair(GlossySurface surface, vec3 diffuse, vec3 specular) {
+    DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, 1.0, 1.0, 1.0, 1.0);
+    estimator.techniques.unshadowed[0] *= diffuse;
+    estimator.techniques.unshadowed[1] *= specular;
+    return TechniquePair(estimator, one_sample_choice_prepare(estimator.techniques));
+}
+
 /// How many samples share the number of a sample.
 int samples_per_number(bool is_paired) { return is_paired && kMis != kNusseltMisOneSample ? 2 : 1; }
 
@@ -103,10 +112,10 @@ Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u
     return Draw(decision.chosen, vec2(decision.u, u.y));
 }
 
-/// \param pdf the densities of both techniques in the direction of the sample
-DirectLightSample combine(TechniquePair techniques, Reflection reflection, int technique, LightSample s, vec2 pdf) {
-    MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y,
-                                             reflection_eval_components(reflection, s.wi));
+/// \param components of the BRDF in the direction of the sample
+/// \param pdf        the densities of both techniques there
+DirectLightSample combine(TechniquePair techniques, BrdfComponents components, int technique, LightSample s, vec2 pdf) {
+    MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y, components);
     if (kMis == kNusseltMisOneSample)
         return direct_light_combined(s, one_sample_choice_estimate(techniques.choice, at));
     return direct_light_combined(

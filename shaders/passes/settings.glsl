@@ -9,6 +9,7 @@ layout(constant_id = kStrategiesConstant) const int kStrategies = 0;
 layout(constant_id = kMisConstant) const int kMis = 0;
 layout(constant_id = kSamplerConstant) const int kSampler = 0;
 layout(constant_id = kBrdfConstant) const int kBrdf = 0;
+layout(constant_id = kEmissionSamplingConstant) const int kEmissionSampling = 0;
 
 /// Whether a branch had no code for a setting. The renderer then reports an error, see report_unknown_setting().
 bool has_unknown_setting = false;
@@ -20,7 +21,8 @@ bool is_known(int value, int count) { return value >= 0 && value < count; }
 /// Notes settings whose numbers are none of the known values.
 void check_settings() {
     bool all_known = is_known(kTechnique, kTechniqueCount) && is_known(kStrategies, kStrategiesCount) &&
-                     is_known(kMis, kMisCount) && is_known(kSampler, kSamplerCount) && is_known(kBrdf, kBrdfCount);
+                     is_known(kMis, kMisCount) && is_known(kSampler, kSamplerCount) && is_known(kBrdf, kBrdfCount) &&
+                     is_known(kEmissionSampling, kEmissionSamplingCount);
     if (!all_known) note_unknown_setting();
 }
 

@@ -25,11 +25,19 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
+/// Whether images of lights decide where samples are, or are integrated: see shaders/passes/lights/polygon_cell_samples.glsl.
+bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
+    if (constants[interface::kTexturedPolygonsConstant] == 0) return false;
+    return is_analytic(constants) || constants[interface::kEmissionSamplingConstant] ==
+                                         static_cast<std::uint32_t>(render::EmissionSampling::product);
+}
+
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device), textures.access()};
+    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device), textures.access(),
+                                has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants
@@ -70,6 +78,7 @@ std::vector<std::uint32_t> shading_constants(const render::RenderSettings& setti
     set(interface::kMisConstant, settings.mis);
     set(interface::kSamplerConstant, settings.sample_order);
     set(interface::kBrdfConstant, settings.brdf);
+    set(interface::kEmissionSamplingConstant, settings.emission_sampling);
     return constants;
 }
 

@@ -27,6 +27,8 @@ constexpr int kHeight = 48;
 render::RenderSettings settings_for(std::uint32_t seed) {
     render::RenderSettings settings;
     settings.strategies = render::Strategies::diffuse_ltc;
+    // textured_lights_test.cpp compares cells, whose shaders take long to compile.
+    settings.emission_sampling = render::EmissionSampling::measure;
     // All pixels of a frame share their offset: with few frames, edges would not be independent of each other.
     settings.samples = 16;
     settings.seed = seed;

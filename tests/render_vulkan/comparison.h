@@ -17,7 +17,7 @@ inline image::Image render_on_cpu(const scene::Scene& scene, const render::Rende
 
 /// Whether the renderer for GPUs has all lights of a scene.
 inline bool is_supported(const scene::Scene& scene) {
-    return scene.emission_textures.empty() && scene.lights.of<scene::EnvironmentLight>().empty();
+    return scene.lights.of<scene::EnvironmentLight>().empty();
 }
 
 } // namespace nusselt::render_vulkan_test

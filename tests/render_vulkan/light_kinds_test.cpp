@@ -73,6 +73,22 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     const scene::PolygonLight polygon{0, -1, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {1, 2, 3}, true};
     scene.lights.of<scene::PolygonLight>() = {polygon, polygon};
     EXPECT_EQ(shapes_of(scene), std::vector<int>{interface::kPolygonsConstant});
+    const auto shapes_with_textures = [&](bool has_uniform) {
+        scene::Scene other = render_test::make_floor(4);
+        auto texture = std::make_shared<scene::EmissionTexture>();
+        texture->width = 2;
+        texture->height = 1;
+        texture->texels = {{1, 1, 1}, {3, 3, 3}};
+        scene::PolygonLight textured = polygon;
+        textured.texture = 0;
+        other.emission_textures = {{texture, {{{0, 0}, {1, 0}, {0, 1}}}, {2, 2, 2}}};
+        other.lights.of<scene::PolygonLight>() = {textured};
+        if (has_uniform) other.lights.of<scene::PolygonLight>().push_back(polygon);
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_textures(false), std::vector<int>{interface::kTexturedPolygonsConstant});
+    EXPECT_EQ(shapes_with_textures(true),
+              (std::vector<int>{interface::kPolygonsConstant, interface::kTexturedPolygonsConstant}));
     const scene::LineLight line{1, {0, 0, 1}, {1, 0, 1}, 0.1f, {2, 2, 2}, scene::TubeModel::linear};
     scene.lights.of<scene::LineLight>() = {line, line, line};
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant}));

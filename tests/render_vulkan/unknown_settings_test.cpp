@@ -61,11 +61,13 @@ private:
 
 TEST_F(UnknownSettings, AreCountedByShaders) {
     EXPECT_EQ(unknown_count(known_constants()), 0u);
-    const std::pair<int, int> ends[] = {{interface::kTechniqueConstant, interface::kTechniqueCount},
-                                        {interface::kStrategiesConstant, interface::kStrategiesCount},
-                                        {interface::kMisConstant, interface::kMisCount},
-                                        {interface::kSamplerConstant, interface::kSamplerCount},
-                                        {interface::kBrdfConstant, interface::kBrdfCount}};
+    const std::pair<int, int> ends[] = {
+        {interface::kTechniqueConstant, interface::kTechniqueCount},
+        {interface::kStrategiesConstant, interface::kStrategiesCount},
+        {interface::kMisConstant, interface::kMisCount},
+        {interface::kSamplerConstant, interface::kSamplerCount},
+        {interface::kBrdfConstant, interface::kBrdfCount},
+        {interface::kEmissionSamplingConstant, interface::kEmissionSamplingCount}};
     for (const auto& [number, end] : ends) {
         std::vector<std::uint32_t> constants = known_constants();
         constants.at(static_cast<std::size_t>(number)) = static_cast<std::uint32_t>(end);

@@ -54,12 +54,11 @@ TexturedView textured_view_prepare(TexturePlane plane, uint light) {
 }
 
 /// Adds up the weights of cells along columns.
-/// \param lattice of the image of the view.
-TexturedCells textured_cells_prepare(TexturedView view, CellLattice lattice) {
+TexturedCells textured_cells_prepare(TexturedView view) {
     TexturedCells self;
     self.view = view;
     self.unshadowed = vec3(0.0);
-    cell_lattice_find_angles(lattice, self.sums.sum);
+    cell_lattice_find_angles(cell_lattice_prepare(view.image, view.light), self.sums.sum);
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) {
         float angle = self.sums.sum[cell];
         cell_sums_add(self.sums, cell, textured_light_weight(view.light, cell) * angle);

@@ -16,13 +16,17 @@ struct TexturedPolygon {
     TexturedCells cells;
 };
 
+/// See textured_polygon_prepare().
+TexturedView textured_polygon_view(TexturePlane plane, uint light) {
+    TexturedView view = textured_view_prepare(plane, light);
+    view.distance = abs(plane_distance(texture_plane_outline(view.plane)));
+    return view;
+}
+
 /// \param plane of the texture in shading space [m].
 /// \param light number of the first word of the light (textured_light.glsl).
 TexturedPolygon textured_polygon_prepare(TexturePlane plane, uint light) {
-    TexturedView view = textured_view_prepare(plane, light);
-    CellLattice lattice = cell_lattice_prepare(view.image, light);
-    view.distance = abs(lattice.signed_distance);
-    return TexturedPolygon(textured_cells_prepare(view, lattice));
+    return TexturedPolygon(textured_cells_prepare(textured_polygon_view(plane, light)));
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].

@@ -18,9 +18,8 @@ struct TexturedPolygonLtc {
     Ltc ltc;
 };
 
-/// \param plane of the texture in shading space [m].
-/// \param light number of the first word of the light (textured_light.glsl).
-TexturedPolygonLtc textured_polygon_ltc_prepare(TexturePlane plane, uint light, Ltc ltc) {
+/// See textured_polygon_ltc_prepare().
+TexturedView textured_polygon_ltc_view(TexturePlane plane, uint light, Ltc ltc) {
     TexturedView view = textured_view_prepare(plane, light);
     view.image = TexturePlane(ltc_to_cosine(ltc, view.plane.corner), ltc_to_cosine(ltc, view.plane.side_x),
                               ltc_to_cosine(ltc, view.plane.side_y),
@@ -28,7 +27,13 @@ TexturedPolygonLtc textured_polygon_ltc_prepare(TexturePlane plane, uint light, 
     view.image_area = texture_plane_area(view.image);
     view.distance = abs(plane_distance(texture_plane_outline(view.plane)));
     view.lowest = -kNusseltLargest;
-    return TexturedPolygonLtc(textured_cells_prepare(view, cell_lattice_prepare(view.image, light)), ltc);
+    return view;
+}
+
+/// \param plane of the texture in shading space [m].
+/// \param light number of the first word of the light (textured_light.glsl).
+TexturedPolygonLtc textured_polygon_ltc_prepare(TexturePlane plane, uint light, Ltc ltc) {
+    return TexturedPolygonLtc(textured_cells_prepare(textured_polygon_ltc_view(plane, light, ltc)), ltc);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe [W/(sr m^2)].

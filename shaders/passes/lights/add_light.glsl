@@ -1,7 +1,7 @@
 /// Adds samples of one light. A file includes this one for each shape of light, with the types
 ///
-///     LOCAL_LIGHT: a light as a shading point sees it, with the members `shape` and `role`, and a function is_dark(light, wi):
-///         whether wi meets a part of it that does not shine, where samples count like those in shadow;
+///     LOCAL_LIGHT: a light as a shading point sees it, with the members `shape` and `role`, and a function
+///         modulate(light, s): multiplies a sample by what the light emits there, as a part of role.emission;
 ///     TECHNIQUES: see techniques.glsl.
 
 void add_light(inout Estimate estimate, LOCAL_LIGHT light) {
@@ -19,10 +19,11 @@ void add_light(inout Estimate estimate, LOCAL_LIGHT light) {
             LightSample s = techniques_sample(techniques, draw.technique, draw.u);
             DirectLightSample result;
             if (is_paired)
-                result = combine(pair, estimate.reflection, draw.technique, s, techniques_pdf(techniques, s.wi));
+                result = combine(pair, reflection_eval_components(estimate.reflection, s.wi), draw.technique, s,
+                                 techniques_pdf(techniques, s.wi));
             else
                 result = reflect_sample(estimate.reflection, s);
-            if (is_dark(light, result.wi)) result.shadowed = vec3(0.0);
+            modulate(light, result);
             add_sample(estimate, result);
         }
     }

@@ -30,10 +30,6 @@ LocalTube tube_of(LocalLine light) {
     return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.role);
 }
 
-// Whether a direction meets a part of the light that does not shine.
-bool is_dark(LocalLine light, vec3 wi) { return false; }
-bool is_dark(LocalTube light, vec3 wi) { return light.is_open && meets_cap(light.shape, wi); }
-
 /// \param index among the lines and tubes
 LocalLine local_line(Surface surface, uint index) {
     LineLightRecord record = line_lights[index];

@@ -99,6 +99,12 @@ vec2 techniques_integrals(TubeTechniques self) {
                 cylinder_ltc_measure(self.ltc));
 }
 
+// Samples on a part of the light that does not shine count like those in shadow.
+void modulate(LocalLine light, inout DirectLightSample s) {}
+void modulate(LocalTube light, inout DirectLightSample s) {
+    if (light.is_open && meets_cap(light.shape, s.wi)) s.shadowed = vec3(0.0);
+}
+
 #define LOCAL_LIGHT LocalLine
 #define TECHNIQUES LineTechniques
 #include "passes/lights/add_light.glsl"

@@ -7,10 +7,15 @@
 #error LIGHT_VERTICES must be 4 or 8: the vertices that each polygonal light has room for
 #endif
 
+#ifndef EMISSION_CELLS
+#error EMISSION_CELLS must be 1 where images of lights decide where samples are, else 0: those shaders take longer to compile
+#endif
+
 #include "nusselt/geometry/convex_polygon.glsl"
 #include "passes/lights/light_role.glsl"
+#include "passes/lights/polygon_texture.glsl"
 
-layout(constant_id = kPolygonsConstant) const bool kHasPolygons = true;
+layout(constant_id = kPolygonsConstant) const bool kHasPolygons = true; ///< of uniform radiance
 
 layout(set = 0, binding = kPolygonLightsBinding, std430) readonly buffer PolygonLights { PolygonLightRecord polygon_lights[]; };
 /// For each polygonal light LIGHT_VERTICES vertices, then as many edges.
@@ -19,10 +24,9 @@ layout(set = 0, binding = kPolygonCornersBinding, std430) readonly buffer Polygo
 struct LocalPolygon {
     ConvexPolygon shape; ///< in shading space
     LightRole role;
+    int texture_number;  ///< -1 for uniform radiance
+    TexturePlane plane;  ///< of the texture, in shading space
 };
-
-/// Whether a direction meets a part of the light that does not shine.
-bool is_dark(LocalPolygon light, vec3 wi) { return false; }
 
 vec3 polygon_corner(uint number) {
     uint at = 3u * number;
@@ -50,14 +54,23 @@ LocalPolygon local_polygon(Surface surface, uint index) {
     float highest = local.vertex[0].z;
     for (int j = 1; j < NUSSELT_MAX_VERTICES; ++j) highest = nusselt_max(highest, local.vertex[j].z);
     is_lit = is_lit && !(highest <= 0.0);
-    return LocalPolygon(local, LightRole(is_lit, to_vec(polygon_lights[index].radiance), number));
+    LocalPolygon light;
+    light.shape = local;
+    light.role = LightRole(is_lit, to_vec(polygon_lights[index].radiance), number);
+    light.texture_number = polygon_lights[index].texture_number;
+    if (kHasTexturedPolygons && light.texture_number >= 0)
+        light.plane = to_shading_space(texture_plane(light.texture_number), surface.position, surface.shading);
+    return light;
 }
 
 /// The radiance along a ray that meets the light.
 vec3 polygon_emission(uint index, Ray ray) {
     bool is_seen =
         polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), ray.direction) < 0.0;
-    return is_seen ? to_vec(polygon_lights[index].radiance) : vec3(0.0);
+    if (!is_seen) return vec3(0.0);
+    int texture_number = polygon_lights[index].texture_number;
+    if (kHasTexturedPolygons && texture_number >= 0) return texture_radiance_along(texture_number, ray);
+    return to_vec(polygon_lights[index].radiance);
 }
 
 #endif

@@ -105,15 +105,28 @@ vec2 techniques_integrals(PolygonTechniques self) {
                 kStrategies == kStrategiesDiffuseLtc ? polygon_ltc_measure(self.ltc) : 0.0);
 }
 
+/// Multiplies a sample by the radiance at its point over the mean.
+void modulate(LocalPolygon light, inout DirectLightSample s) {
+    if (!kHasTexturedPolygons || light.texture_number < 0) return;
+    vec3 radiance = texture_radiance(light.texture_number, texture_plane_coordinates(light.plane, s.p));
+    s.shadowed = (to_vec(polygon_textures[light.texture_number].inverse_mean) * radiance) * s.shadowed;
+}
+
 #define LOCAL_LIGHT LocalPolygon
 #define TECHNIQUES PolygonTechniques
 #include "passes/lights/add_light.glsl"
 #undef LOCAL_LIGHT
 #undef TECHNIQUES
 
+#if EMISSION_CELLS
+#include "passes/lights/polygon_cell_samples.glsl"
+#else
+#include "passes/lights/polygon_measure_samples.glsl"
+#endif
+
 void add_polygons(inout Estimate estimate) {
-    for (uint i = first_index(kPolygonKind); kHasPolygons && i < end_index(kPolygonKind); ++i)
-        add_light(estimate, local_polygon(estimate.surface, i));
+    for (uint i = first_index(kPolygonKind); (kHasPolygons || kHasTexturedPolygons) && i < end_index(kPolygonKind); ++i)
+        add_polygon(estimate, local_polygon(estimate.surface, i));
 }
 
 #endif

@@ -5,7 +5,7 @@
 
 namespace nusselt::render_vulkan {
 
-bool write_distants(const scene::LightList& list, LightRecords& records) {
+bool write_distants(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
     const auto* const distants = dynamic_cast<const scene::LightsOf<scene::DistantLight>*>(&list);
     if (distants == nullptr) return false;
     std::vector<interface::DistantLightRecord> lights;

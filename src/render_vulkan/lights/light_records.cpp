@@ -10,7 +10,7 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-using WriteLights = bool (*)(const scene::LightList& list, LightRecords& records);
+using WriteLights = bool (*)(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 /// By the number of the kind in shaders/interface/lights.h.
 constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, write_distants};
@@ -25,7 +25,7 @@ LightRecords make_light_records(const scene::Scene& scene) {
     for (const scene::LightList& list : scene.lights) {
         const auto count = static_cast<std::uint32_t>(list.size());
         const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                              [&](WriteLights write) { return write(list, records); });
+                                              [&](WriteLights write) { return write(scene, list, records); });
         if (kind != std::end(kKinds))
             records.ranges.at(static_cast<std::size_t>(kind - kKinds)) = {number, count};
         else if (count > 0)

@@ -50,9 +50,9 @@ struct LightRecords {
 LightRecords make_light_records(const scene::Scene& scene);
 
 // The rows of the table of kinds. Each writes its arrays and shapes; false if the list is of another kind.
-bool write_polygons(const scene::LightList& list, LightRecords& records);
-bool write_lines(const scene::LightList& list, LightRecords& records);
-bool write_points(const scene::LightList& list, LightRecords& records);
-bool write_distants(const scene::LightList& list, LightRecords& records);
+bool write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+bool write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+bool write_distants(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 } // namespace nusselt::render_vulkan

@@ -25,7 +25,7 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
 
 } // namespace
 
-bool write_lines(const scene::LightList& list, LightRecords& records) {
+bool write_lines(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
     const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
     if (lines == nullptr) return false;
     if (std::any_of(lines->lights.begin(), lines->lights.end(),

@@ -23,7 +23,7 @@ static_assert(is_number_of(PointDistribution::isotropic, interface::kIsotropic) 
 
 } // namespace
 
-bool write_points(const scene::LightList& list, LightRecords& records) {
+bool write_points(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
     const auto* const points = dynamic_cast<const scene::LightsOf<scene::PointLight>*>(&list);
     if (points == nullptr) return false;
     std::vector<interface::PointLightRecord> lights;

@@ -1,13 +1,13 @@
 // Polygonal lights, for shaders/passes/lights/polygon.glsl.
 
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/lights/polygon_textures.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
 
 #include <nusselt/geometry/convex_polygon.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace nusselt::render_vulkan {
 
@@ -16,6 +16,7 @@ namespace {
 struct PolygonArrays {
     std::vector<interface::PolygonLightRecord> lights;
     std::vector<scene::Float3> corners; ///< of each light the vertices, then the edges
+    std::vector<interface::PolygonTextureRecord> textures;
 };
 
 template <int N>
@@ -32,31 +33,38 @@ void add_polygon(const scene::PolygonLight& light, PolygonArrays& arrays) {
             "lights with a profile or a spread are not supported on GPUs; use --backend cpu");
     copy(light.radiance, record.radiance);
     record.is_two_sided = light.two_sided ? 1 : 0;
+    record.texture_number = -1;
 }
 
 } // namespace
 
-bool write_polygons(const scene::LightList& list, LightRecords& records) {
+bool write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
-    if (std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.texture >= 0; }))
-        throw std::runtime_error("lights that emit an image are not supported on GPUs; use --backend cpu");
     const bool are_small = std::all_of(lights.begin(), lights.end(),
                                        [](const auto& light) { return light.vertices.size() <= 4; });
     records.polygon_slots = are_small ? 4 : 8;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
+    LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
+    emission.what = "images of lights";
     for (const scene::PolygonLight& light : lights) {
         if (are_small)
             add_polygon<4>(light, arrays);
         else
             add_polygon<8>(light, arrays);
+        records.has_shape_of(light.texture < 0 ? interface::kPolygonsConstant
+                                               : interface::kTexturedPolygonsConstant) = true;
+        if (light.texture < 0) continue;
+        arrays.lights.back().texture_number = static_cast<std::int32_t>(arrays.textures.size());
+        arrays.textures.push_back(add_texture(scene, light, records.polygon_slots, emission.words));
     }
     records.array_at(interface::kPolygonLightsBinding) = make_light_array("polygonal lights", arrays.lights);
     records.array_at(interface::kPolygonCornersBinding) =
         make_light_array("corners of lights", arrays.corners);
-    records.has_shape_of(interface::kPolygonsConstant) = !lights.empty();
+    records.array_at(interface::kPolygonTexturesBinding) =
+        make_light_array("textures of lights", arrays.textures);
     return true;
 }
 

@@ -1,0 +1,19 @@
+#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_CELL_INTEGRALS_GLSL
+#define NUSSELT_PASSES_LIGHTS_POLYGON_CELL_INTEGRALS_GLSL
+/// Integrals over polygonal lights, some of which emit an image: all of each cell has its mean radiance.
+
+#include "passes/lights/polygon_cells.glsl"
+
+void add_polygon(inout Reflected reflected, LocalPolygon light) {
+    if (light.texture_number < 0) {
+        if (kHasPolygons) add_light(reflected, light.role, lobe_integrals(light, reflected.glossy.lobe));
+        return;
+    }
+    bool is_glossy = glossy_surface_is_glossy(reflected.glossy);
+    PolygonCells cells = prepare_cells(light, reflected.glossy.lobe, is_glossy);
+    vec3 share = cells_unshadowed(cells, 0) * reflected.glossy.diffuse_albedo;
+    if (is_glossy) share += cells_unshadowed(cells, 1) * reflected.glossy.specular_albedo;
+    add_share(reflected, vec3(1.0), share);
+}
+
+#endif
