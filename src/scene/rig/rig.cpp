@@ -260,9 +260,14 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
             fail(entry.where, "two_sided",
                  "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
                      ", which has no second side");
-        for (LightList& list : light.parts)
-            for (std::size_t i = 0; i < list.size(); ++i) *list.two_sided(i) = *changes.two_sided;
-        refit_profile(scene_, light);
+        bool is_changed = false;
+        for (LightList& list : light.parts) {
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                is_changed |= *list.two_sided(i) != *changes.two_sided;
+                *list.two_sided(i) = *changes.two_sided;
+            }
+        }
+        if (is_changed) refit_profile(scene_, light);
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
     if (!changes.remove) return;
