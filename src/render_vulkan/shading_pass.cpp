@@ -36,8 +36,10 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device), textures.access(),
-                                has_emission_cells(constants)};
+    const bool has_cells = has_emission_cells(constants);
+    // Shaders with cells do without fused fma, which is right for all devices.
+    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device) && !has_cells, textures.access(),
+                                has_cells};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants

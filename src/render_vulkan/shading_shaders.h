@@ -25,7 +25,7 @@ struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see LightRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
-    bool emission_cells; ///< whether images of lights decide where samples are
+    bool emission_cells; ///< whether images of lights decide where samples are: with 8 slots and without fused fma only
     bool operator==(const ShaderVariant&) const = default;
 };
 
@@ -35,7 +35,7 @@ struct ShadingShader {
     std::span<const std::uint32_t> words; ///< SPIR-V
 };
 
-/// All passes in all variants.
+/// All passes in all variants that there are.
 std::span<const ShadingShader> shading_shaders();
 
 /// The words of the SPIR-V.

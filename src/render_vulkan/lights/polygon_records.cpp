@@ -42,8 +42,10 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
-    const bool are_small = std::all_of(lights.begin(), lights.end(),
-                                       [](const auto& light) { return light.vertices.size() <= 4; });
+    // Shaders for lights with a texture have room for 8 vertices only.
+    const bool are_small = std::all_of(lights.begin(), lights.end(), [](const auto& light) {
+        return light.vertices.size() <= 4 && light.texture < 0;
+    });
     records.polygon_slots = are_small ? 4 : 8;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
