@@ -144,11 +144,49 @@ TEST_F(ImageEmission, MirroredShapesKeepTheirImage) {
     EXPECT_EQ(emitting_normal(polygons(scene)[0]).z, 1);
 }
 
-TEST_F(ImageEmission, TubesHaveTheMeanColour) {
-    const Scene scene = light("Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1");
-    expect_near(scene.lights.of<LineLight>().at(0).radiance, {3.5f, 1.5f, 1}, 1e-5f);
+/// The rows of the image are along v, from the start of the tube.
+TEST_F(ImageEmission, TubesHaveTheMeansOfRows) {
+    const Scene scene =
+        light("Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1", "\"float scale\" 2");
     EXPECT_EQ(warning(scene),
-              "scene.pbrt:4: shape \"line\": the image is replaced by its mean colour on tubes");
+              "scene.pbrt:4: shape \"line\": each row of the image is replaced by its mean, because "
+              "radiance varies along tubes only");
+    const LineLight& tube = scene.lights.of<LineLight>().at(0);
+    expect_near(tube.radiance, {7, 3, 2}, 1e-5f);
+    EXPECT_EQ(tube.texture, 0);
+    const TexturedEmission& emission = scene.emission_textures.at(0);
+    ASSERT_EQ(emission.texture->width, 1);
+    ASSERT_EQ(emission.texture->height, 4);
+    expect_near(emission.texture->texels[0], {3.5f, 0, 1}, 1e-6f);
+    expect_near(emission.texture->texels[3], {3.5f, 3, 1}, 1e-6f);
+    expect_near(emission.mean, {3.5f, 1.5f, 1}, 1e-5f);
+}
+
+TEST_F(ImageEmission, TubesHaveAtMost64Rows) {
+    write_ramp("ramp.pfm", 1, 160);
+    const Scene scene = light("Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1");
+    EXPECT_EQ(warning(scene), "scene.pbrt:4: shape \"line\": the 160 rows of the image are reduced to 64");
+    const std::vector<Float3>& texels = scene.emission_textures.at(0).texture->texels;
+    ASSERT_EQ(texels.size(), 64u);
+    // Rows 0, 1 and half of row 2, over 2.5.
+    expect_near(texels[0], {0, 0.8f, 1}, 1e-5f);
+    expect_near(texels[63], {0, 158.2f, 1}, 1e-3f);
+}
+
+TEST_F(ImageEmission, TubesOfOneRowAreUniform) {
+    write_ramp("ramp.pfm", 1, 1);
+    const Scene scene = light("Shape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1");
+    EXPECT_EQ(scene.lights.of<LineLight>().at(0).texture, -1);
+    EXPECT_TRUE(scene.emission_textures.empty());
+}
+
+/// Each shape has its own texture after shapes are joined.
+TEST_F(ImageEmission, TubesAndPolygonsShareTheListOfTextures) {
+    const Scene scene =
+        light(std::string(kQuad) + "\nShape \"line\" \"point3 P\" [0 0 3 1 0 3] \"float radius\" 0.1");
+    EXPECT_EQ(scene.emission_textures.size(), 2u);
+    EXPECT_EQ(polygons(scene).at(0).texture, 0);
+    EXPECT_EQ(scene.lights.of<LineLight>().at(0).texture, 1);
 }
 
 TEST_F(ImageEmission, ManyPolygonsAreTexturedUpToALimit) {

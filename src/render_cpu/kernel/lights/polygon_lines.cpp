@@ -17,8 +17,8 @@ using render::ManyOccluders;
 
 using Estimator = LineLight<Real, SurfaceBrdf>;
 
-/// Points on each line that look up radiance. Each costs about as much as what else there is to do for a line in plain
-/// sight; docs/line-samples.md has measurements.
+/// Points on each line that look up radiance. Of 64 lines in a penumbra, one point each has three times the error in a bit more
+/// than half of the time; eight have two thirds of the error in one and a half of the time.
 constexpr int kTexturePoints = 4;
 
 /// The radiance of a light with a texture along parallel lines of it, over its mean.
