@@ -25,7 +25,8 @@ struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see LightRecords
     bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
-    bool emission_cells; ///< whether images of lights decide where samples are: with 8 slots and without fused fma only
+    bool
+        emission_cells; ///< whether images of lights decide where samples are: with 8 slots and without fused fma only
     bool operator==(const ShaderVariant&) const = default;
 };
 

@@ -6,6 +6,7 @@
 #include "scene/rig/rig_json.h"
 #include "scene_fixture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -181,6 +182,30 @@ TEST(ShippedScenes, Street) {
         EXPECT_GT(placement.y_axis.x * light.vertices[0].x, 0);
     }
     EXPECT_EQ(luminaires, 5u);
+}
+
+/// The portal is the hole in the wall, and nothing else of the room is open.
+TEST(ShippedScenes, Window) {
+    const Scene scene = shipped("window.pbrt");
+    ASSERT_EQ(scene.lights.of<EnvironmentLight>().size(), 1u);
+    const EnvironmentLight& sky = scene.lights.of<EnvironmentLight>()[0];
+    ASSERT_EQ(sky.portal.size(), 4u);
+    for (const Float3& corner : sky.portal) {
+        EXPECT_EQ(corner.x, -2.2f);
+        const auto is_corner = [&](const Float3& p) {
+            return p.x == corner.x && p.y == corner.y && p.z == corner.z;
+        };
+        EXPECT_TRUE(std::any_of(scene.positions.begin(), scene.positions.end(), is_corner));
+    }
+    // The walls of a box, without the hole.
+    double area = 0;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const std::string& name = scene.materials[scene.triangle_material[i]].name;
+        const Double3 p = vertex(scene, i, 0);
+        if (name == "wall" || name == "parquet")
+            area += length(cross(vertex(scene, i, 1) - p, vertex(scene, i, 2) - p)) / 2;
+    }
+    EXPECT_NEAR(area, 2 * (4.4 * 2.5 + 4.4 * 5.4 + 2.5 * 5.4) - 1.3 * 1.8, 1e-4);
 }
 
 TEST(ShippedScenes, Wall) {

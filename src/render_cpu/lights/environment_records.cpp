@@ -31,6 +31,27 @@ struct PreparedMap {
     Map light;
 };
 
+/// Columns and rows of tables of portals, at most.
+constexpr int kMostTexels = 1024;
+
+/// A map with as many texels as tables can show: means over squares of texels, where it has more.
+struct ReducedMap {
+    explicit ReducedMap(const OctahedralMap<float>& map) : radiance(map) {
+        const int factor = map.size / kMostTexels;
+        if (factor <= 1) return;
+        const float share = 1 / static_cast<float>(factor * factor);
+        texels.resize(static_cast<std::size_t>(kMostTexels) * kMostTexels);
+        for (int j = 0; j < map.size; ++j)
+            for (int i = 0; i < map.size; ++i)
+                texels[static_cast<std::size_t>(j / factor * kMostTexels + i / factor)] +=
+                    share * map.texel[j * map.size + i];
+        radiance = {texels.data(), kMostTexels};
+    }
+
+    std::vector<Vec3<float>> texels;
+    OctahedralMap<float> radiance;
+};
+
 /// A portal for points on one side of it.
 struct PreparedPortal {
     /// \param frame    its normal leads away from these points
@@ -40,16 +61,16 @@ struct PreparedPortal {
     PreparedPortal(const std::vector<Vec3<float>>& vertices, const Frame<float>& frame, int map_size,
                    const Radiance& radiance) {
         // The map varies within texels of the table, which remains as noise: they are half as large as those of the map.
-        const int texels = std::clamp(2 * map_size, 16, 1024);
+        const int texels = std::clamp(2 * map_size, 16, kMostTexels);
         // An interpolated peak of a single texel is two texels wide, so that some lookup finds it.
-        const int lookups = std::max(2 * map_size / texels, 2);
+        constexpr int kLookups = 2;
         sums.resize(static_cast<std::size_t>(RectifiedTable<float>::size(texels, texels)));
         colour.resize(sums.size());
         const auto in_frame = [&](const Vec3<float>& direction) {
             return radiance(frame.to_world(direction));
         };
         const auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
-                                                       texels, lookups, sums.data(), colour.data());
+                                                       texels, kLookups, sums.data(), colour.data());
         light = make_portal(frame, vertices.data(), static_cast<int>(vertices.size()), table);
     }
 
@@ -82,19 +103,24 @@ void add_portal(const scene::EnvironmentLight& light, const PreparedMap* map, En
                 EnvironmentRecord& record) {
     std::vector<Vec3<float>> vertices;
     for (const scene::Float3& vertex : light.portal) vertices.push_back(scene::to_vec(vertex));
-    const auto radiance = [&](const Vec3<float>& w) {
-        if (map == nullptr) return scene::to_vec(light.radiance);
-        const auto along = [&](const scene::Float3& axis) { return dot(scene::to_vec(axis), w); };
-        return map->light.radiance.lookup(
-            Vec3<float>{along(light.x_axis), along(light.y_axis), along(light.z_axis)});
+    const auto add_sides = [&](int map_size, const auto& radiance) {
+        const Frame<float> frame = frame_of(vertices);
+        const Frame<float> back{frame.t, -frame.b, -frame.n};
+        record.portal[0] = &environments.portals.emplace_back(vertices, frame, map_size, radiance).light;
+        record.portal[1] = &environments.portals.emplace_back(vertices, back, map_size, radiance).light;
     };
-    const auto add = [&](const Frame<float>& frame) {
-        const int map_size = map == nullptr ? 1 : map->light.radiance.size;
-        return &environments.portals.emplace_back(vertices, frame, map_size, radiance).light;
+    if (map == nullptr) {
+        add_sides(1, [&](const Vec3<float>& /*w*/) { return scene::to_vec(light.radiance); });
+        return;
+    }
+    const ReducedMap reduced(map->light.radiance);
+    const auto along = [](const scene::Float3& axis, const Vec3<float>& w) {
+        return dot(scene::to_vec(axis), w);
     };
-    const Frame<float> frame = frame_of(vertices);
-    record.portal[0] = add(frame);
-    record.portal[1] = add({frame.t, -frame.b, -frame.n});
+    add_sides(reduced.radiance.size, [&](const Vec3<float>& w) {
+        return reduced.radiance.lookup(
+            Vec3<float>{along(light.x_axis, w), along(light.y_axis, w), along(light.z_axis, w)});
+    });
 }
 
 } // namespace

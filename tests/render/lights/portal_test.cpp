@@ -242,6 +242,24 @@ TEST(PortalWithMap, AllStrategiesHaveTheSameExpectation) {
     }
 }
 
+/// All light comes from one texel of a map with more texels than the table of the portal.
+TEST(PortalWithMap, TexelsOfLargeMapsAreNotMissed) {
+    constexpr std::size_t kLarge = 2048;
+    constexpr std::size_t kColumn = 1331, kRow = 1250;
+    EnvironmentMapTexels map{"map", kLarge, std::vector<Float3>(kLarge * kLarge, Float3{0, 0, 0}), {}};
+    map.texels[kRow * kLarge + kColumn] = {1e6f, 1e6f, 1e6f};
+    constexpr float kMean = 1e6f / (kLarge * kLarge);
+    map.mean = {kMean, kMean, kMean};
+    scene::Scene scene = make_scene(kRectangle, kSmall);
+    scene.environment_maps[0] = std::make_shared<const EnvironmentMapTexels>(std::move(map));
+    scene.lights.of<EnvironmentLight>()[0].radiance = {kMean, kMean, kMean};
+    const Mean mean = render_green(scene, centred(64));
+    const Double3 d = direction_at((kColumn + 0.5) / kLarge, (kRow + 0.5) / kLarge);
+    const double expected = 4 * kFloorAlbedo * kMean * d.z;
+    EXPECT_NEAR(mean.value, expected, 5 * mean.error + 1e-3 * expected);
+    EXPECT_LT(mean.error, 0.02 * expected);
+}
+
 TEST(PortalWithMap, CamerasSeeTheSkyThroughIt) {
     struct View {
         Float3 eye, target;

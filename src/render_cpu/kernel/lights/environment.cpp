@@ -1,4 +1,4 @@
-// Environments: light from infinity in all directions.
+// Environments: light from infinity in all directions, or in those that a portal lets through.
 
 #include "render_cpu/kernel/lights/cell_samples.h"
 #include "render_cpu/lights/environment_records.h"
