@@ -1,7 +1,7 @@
 #ifndef NUSSELT_EMISSION_WINDOWED_LIGHT_GLSL
 #define NUSSELT_EMISSION_WINDOWED_LIGHT_GLSL
 // Follows include/nusselt/emission/windowed_light.h @ 3dd7e5945911
-// Follows include/nusselt/emission/windowed_light_words.h @ 9404e53c04da
+// Follows include/nusselt/emission/windowed_light_words.h @ 0c4314ffd992
 /// Polygons whose radiance depends on the direction and not on the point: portals of environment maps, and lights with a
 /// profile. Twin of include/nusselt/emission/windowed_light.h. make_portal() and make_profiled_light() of C++ prepare
 /// lights, and WindowedLightWords writes them as words (rectified_table.glsl). A light is known by the number of its
