@@ -154,17 +154,27 @@ std::vector<Verdict> judge_scenes(int count, const std::vector<std::vector<Emiss
 /// Judges classes of scenes, which share the lights equally.
 /// \param words       of the buffer of lights
 /// \param input_words for each scene
-/// \param judge_class function of a class, its number of scenes and the runners of all shaders
-template <class Classes, class JudgeClass>
+/// \param draw        function of a class and a number that gives a scene
+/// \param run         function of the runner of a shader, a class and its scenes that gives their results
+/// \param judge_scene function of a class, a scene, the results of all shaders for it, and MethodErrors to add to
+template <class Classes, class Draw, class Run, class JudgeScene>
 std::vector<Verdict> judge_classes(const gpu::Device& device, const Classes& classes, int count,
                                    const std::vector<std::span<const std::uint32_t>>& shaders,
                                    std::size_t input_words, const std::vector<std::uint32_t>& words,
-                                   const JudgeClass& judge_class) {
+                                   const Draw& draw, const Run& run, const JudgeScene& judge_scene) {
     std::deque<ShaderRunner> runners;
     for (const auto& shader : shaders) runners.emplace_back(device, shader, input_words, words);
     std::vector<Verdict> verdicts(shaders.size());
     for (const auto& of : classes) {
-        const auto of_class = judge_class(of, count / static_cast<int>(std::size(classes)), runners);
+        const int scene_count = count / static_cast<int>(std::size(classes));
+        std::vector<decltype(draw(of, 0))> scenes;
+        for (int i = 0; i < scene_count; ++i) scenes.push_back(draw(of, i));
+        std::vector<std::vector<EmissionOutputs>> outputs;
+        for (ShaderRunner& runner : runners) outputs.push_back(run(runner, of, scenes));
+        const auto of_class =
+            judge_scenes(scene_count, outputs,
+                         [&](std::size_t number, const std::vector<EmissionOutputs>& of_devices,
+                             MethodErrors& errors) { judge_scene(of, scenes[number], of_devices, errors); });
         for (std::size_t k = 0; k < verdicts.size(); ++k) verdicts[k].add(of.name, of_class[k]);
     }
     return verdicts;

@@ -159,20 +159,16 @@ template <class Pair>
 std::vector<Verdict> judge_pair(const gpu::Device& device,
                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
     const TestMaps maps;
-    const auto judge_class = [&](const Class& of, int of_class, std::deque<ShaderRunner>& runners) {
-        std::vector<Scene> scenes;
-        for (int i = 0; i < of_class; ++i) scenes.push_back(draw_scene(of.surfaces, i));
-        std::vector<std::vector<EmissionOutputs>> outputs;
-        for (ShaderRunner& runner : runners)
-            outputs.push_back(run<Pair>(runner, maps.first_word(of.surroundings), scenes));
-        return judge_scenes(
-            of_class, outputs,
-            [&](std::size_t number, const std::vector<EmissionOutputs>& of_devices, MethodErrors& errors) {
-                judge_scene<Pair>(of, maps.of(of.surroundings), scenes[number], of_devices, errors);
-            });
-    };
-    return judge_classes(device, kClasses, count, shaders, Pair::kHasLobe ? 18 : 12, maps.words(),
-                         judge_class);
+    return judge_classes(
+        device, kClasses, count, shaders, Pair::kHasLobe ? 18 : 12, maps.words(),
+        [](const Class& of, int number) { return draw_scene(of.surfaces, number); },
+        [&](ShaderRunner& runner, const Class& of, const std::vector<Scene>& scenes) {
+            return run<Pair>(runner, maps.first_word(of.surroundings), scenes);
+        },
+        [&](const Class& of, const Scene& scene, const std::vector<EmissionOutputs>& of_devices,
+            MethodErrors& errors) {
+            judge_scene<Pair>(of, maps.of(of.surroundings), scene, of_devices, errors);
+        });
 }
 
 } // namespace

@@ -255,19 +255,13 @@ template <class Pair>
 std::vector<Verdict> judge_pair(const gpu::Device& device,
                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
     const WindowedTestLights lights;
-    const auto judge_class = [&](const Class& of, int of_class, std::deque<ShaderRunner>& runners) {
-        std::vector<Scene> scenes;
-        for (int i = 0; i < of_class; ++i) scenes.push_back(draw_scene(lights, of, i));
-        std::vector<std::vector<EmissionOutputs>> outputs;
-        for (ShaderRunner& runner : runners) outputs.push_back(run<Pair>(runner, scenes));
-        return judge_scenes(
-            of_class, outputs,
-            [&](std::size_t number, const std::vector<EmissionOutputs>& of_devices, MethodErrors& errors) {
-                judge_scene<Pair>(of, scenes[number], of_devices, errors);
-            });
-    };
-    return judge_classes(device, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
-                         judge_class);
+    return judge_classes(
+        device, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
+        [&](const Class& of, int number) { return draw_scene(lights, of, number); },
+        [](ShaderRunner& runner, const Class&, const std::vector<Scene>& scenes) {
+            return run<Pair>(runner, scenes);
+        },
+        judge_scene<Pair>);
 }
 
 } // namespace

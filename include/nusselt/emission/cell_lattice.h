@@ -7,6 +7,7 @@
 /// that the horizon or the outline of the light cut are pieces of these lines, with one arctangent each.
 
 #include <nusselt/emission/cell_lanes.h>
+#include <nusselt/emission/lane_index.h>
 #include <nusselt/emission/texture_plane.h>
 #include <nusselt/emission/textured_light.h>
 
@@ -325,10 +326,7 @@ private:
             }
             const Real term = along.term(edge_length * Real(piece.begin), edge_length * Real(piece.end));
             T added[kPoints];
-            if constexpr (kPoints == 1)
-                added[0] = term;
-            else
-                term.store(added);
+            detail::store_lanes(added, term);
             for (int point = 0; point < kPoints; ++point) terms[kPoints * piece.cell + point] += added[point];
         }
     }

@@ -54,8 +54,8 @@ public:
     NUSSELT_HD void finish() noexcept {
         Real total = Real(0);
         for (int i = 0; i < n; ++i) {
-            total += own(sum_, (n - 1) * n + i);
-            set_own(column_sum_, i, total);
+            total += detail::load_lanes<Real>(sum_ + kPoints * ((n - 1) * n + i));
+            detail::store_lanes(column_sum_ + kPoints * i, total);
         }
         total_ = select((total > Real(0)) & is_finite(total), total, Real(0));
     }
@@ -122,19 +122,6 @@ private:
             return select(total > Real(0), below_one((before + u * (after - before)) / total), Real(0));
         }
     };
-
-    NUSSELT_INLINE static Real own(const Scalar* values, int i) noexcept {
-        if constexpr (kPoints == 1)
-            return values[i];
-        else
-            return Real::load(values + kPoints * i);
-    }
-    NUSSELT_INLINE static void set_own(Scalar* values, int i, const Real& x) noexcept {
-        if constexpr (kPoints == 1)
-            values[i] = x;
-        else
-            x.store(values + kPoints * i);
-    }
 
     NUSSELT_INLINE Real column_sum(const Index& column) const noexcept {
         return detail::places<Real>(column, Index(0), 0).load_own(column_sum_);

@@ -48,19 +48,39 @@ NUSSELT_INLINE void for_each_lane(const Mask& mask, const Function& f) noexcept 
             if ((bits & 1u) != 0) f(static_cast<int>(lane));
     }
 }
+/// All lanes, from an array with a number for each.
 template <class Real>
-NUSSELT_INLINE scalar_t<Real> lane_of(const Real& x, int lane) noexcept {
+NUSSELT_INLINE Real load_lanes(const scalar_t<Real>* source) noexcept {
     if constexpr (RealTraits<Real>::kLanes == 1)
-        return x;
+        return *source;
     else
-        return x.lane(lane);
+        return Real::load(source);
+}
+/// All lanes, into an array with a number for each.
+template <class Real>
+NUSSELT_INLINE void store_lanes(scalar_t<Real>* target, const Real& x) noexcept {
+    if constexpr (RealTraits<Real>::kLanes == 1)
+        *target = x;
+    else
+        x.store(target);
+}
+
+/// One lane of a vector.
+template <class Real>
+NUSSELT_INLINE Vec2<scalar_t<Real>> lane_of(const Vec2<Real>& v, int lane) noexcept {
+    if constexpr (RealTraits<Real>::kLanes == 1)
+        return v;
+    else
+        return {v.x.lane(lane), v.y.lane(lane)};
 }
 template <class Real>
-NUSSELT_INLINE void set_lane(Real& x, int lane, const scalar_t<Real>& value) noexcept {
-    if constexpr (RealTraits<Real>::kLanes == 1)
-        x = value;
-    else
-        x.set_lane(lane, value);
+NUSSELT_INLINE void set_lane(Vec2<Real>& v, int lane, const Vec2<scalar_t<Real>>& value) noexcept {
+    if constexpr (RealTraits<Real>::kLanes == 1) {
+        v = value;
+    } else {
+        v.x.set_lane(lane, value.x);
+        v.y.set_lane(lane, value.y);
+    }
 }
 
 /// The places in an array where the lanes look something up.

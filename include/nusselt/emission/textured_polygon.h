@@ -256,13 +256,9 @@ private:
                                    const Vec2<Real>& argument, const Function& f) const noexcept {
         Vec2<Real> result = others;
         detail::for_each_lane(lanes, [&](int lane) {
-            const auto of_lane = [&](const Vec2<Real>& v) {
-                return Vec2<T>{detail::lane_of(v.x, lane), detail::lane_of(v.y, lane)};
-            };
-            const Vec2<T> value =
-                f(light_->outline.part_in(of_lane(texel.low), of_lane(texel.high)), of_lane(argument));
-            detail::set_lane(result.x, lane, value.x);
-            detail::set_lane(result.y, lane, value.y);
+            const TexturePart<T> part =
+                light_->outline.part_in(detail::lane_of(texel.low, lane), detail::lane_of(texel.high, lane));
+            detail::set_lane(result, lane, f(part, detail::lane_of(argument, lane)));
         });
         return result;
     }
@@ -324,16 +320,11 @@ private:
         Vec2<Real> corner[8];
         for (Vec2<Real>& c : corner) c = cell.low;
         detail::for_each_lane(cut, [&](int lane) {
-            const auto of_lane = [&](const Vec2<Real>& v) {
-                return Vec2<T>{detail::lane_of(v.x, lane), detail::lane_of(v.y, lane)};
-            };
-            const TexturePart<T> part = light_->outline.part_in(of_lane(cell.low), of_lane(cell.high));
+            const TexturePart<T> part =
+                light_->outline.part_in(detail::lane_of(cell.low, lane), detail::lane_of(cell.high, lane));
             // Nothing of a cell without weight is sampled, but a technique needs a polygon. No smooth cell has more corners.
-            for (int k = 0; k < 8 && part.count > 0; ++k) {
-                const Vec2<T>& point = part.corner[k < part.count ? k : part.count - 1];
-                detail::set_lane(corner[k].x, lane, point.x);
-                detail::set_lane(corner[k].y, lane, point.y);
-            }
+            for (int k = 0; k < 8 && part.count > 0; ++k)
+                detail::set_lane(corner[k], lane, part.corner[k < part.count ? k : part.count - 1]);
         });
         const auto value = f(measure_.technique_for(polygon_in<8>(plane_, corner, 8)));
         const Mask uncut = lanes & !cut;

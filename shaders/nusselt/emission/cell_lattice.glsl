@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_CELL_LATTICE_GLSL
 #define NUSSELT_EMISSION_CELL_LATTICE_GLSL
-// Follows include/nusselt/emission/cell_lattice.h @ 97ce6ce9ce10
+// Follows include/nusselt/emission/cell_lattice.h @ bd05eeb78186
 /// Projected solid angles of all cells of a lattice in the plane of a light. Twin of
 /// include/nusselt/emission/cell_lattice.h, which explains the method. Cells are lanes there; here, one row is computed
 /// after the other, so that the projected solid angles are the only array with a number per cell.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TEXTURED_CELLS_GLSL
 #define NUSSELT_EMISSION_TEXTURED_CELLS_GLSL
-// Follows include/nusselt/emission/textured_polygon.h @ feeb07c5f5c1
+// Follows include/nusselt/emission/textured_polygon.h @ 9805b2e0f56e
 /// What TexturedPolygon and TexturedPolygonLtc share: they choose a cell in proportion to mean radiance times the
 /// closed form of its measure, and take a texel of busy cells. Twin of include/nusselt/emission/textured_polygon.h,
 /// with 8 x 8 cells and DescentByProduct.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TEXTURED_POLYGON_LTC_GLSL
 #define NUSSELT_EMISSION_TEXTURED_POLYGON_LTC_GLSL
-// Follows include/nusselt/emission/textured_polygon.h @ feeb07c5f5c1
+// Follows include/nusselt/emission/textured_polygon.h @ 9805b2e0f56e
 /// Sampling of polygons with a texture in proportion to radiance times a glossy lobe. Twin of TexturedPolygonLtc in
 /// include/nusselt/emission/textured_polygon.h, with 8 x 8 cells and DescentByProduct.
 ///

@@ -24,6 +24,13 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 
+/// Whether samples of lights with an extent come from cells.
+inline bool takes_products(const render_cpu::RenderJob& job) noexcept {
+    return job.emission_sampling == render::EmissionSampling::product &&
+           (job.technique == render::Technique::projected_solid_angle ||
+            job.technique == render::Technique::projected_solid_angle_biased);
+}
+
 /// A technique for each shading point of a packet.
 template <class Technique>
 class LaneTechniques {

@@ -118,12 +118,6 @@ void add_textured_tube_integrals(render_cpu::LitPacket& packet, const render_cpu
                         {all, diffuse});
 }
 
-bool takes_products(const render_cpu::RenderJob& job) noexcept {
-    return job.emission_sampling == render::EmissionSampling::product &&
-           (job.technique == render::Technique::projected_solid_angle ||
-            job.technique == render::Technique::projected_solid_angle_biased);
-}
-
 } // namespace
 
 render_cpu::AddLight textured_lines(const render_cpu::RenderJob& job) noexcept {

@@ -61,11 +61,8 @@ void add_textured(render_cpu::LitPacket& packet, const render_cpu::LightSet& lig
 template <int N>
 render_cpu::AddLight choose_technique(const render_cpu::RenderJob& job) noexcept {
     using render::Strategies;
-    using render::Technique;
-    if (job.technique == Technique::ltc_analytic) return &add_textured<N, &add_cell_integrals>;
-    const bool is_projected = job.technique == Technique::projected_solid_angle ||
-                              job.technique == Technique::projected_solid_angle_biased;
-    if (job.emission_sampling == render::EmissionSampling::product && is_projected) {
+    if (job.technique == render::Technique::ltc_analytic) return &add_textured<N, &add_cell_integrals>;
+    if (takes_products(job)) {
         if (job.strategies == Strategies::diffuse) return &add_textured<N, &add_by_cells>;
         if (job.strategies == Strategies::diffuse_ltc) return &add_textured<N, &add_by_cell_pair>;
     }
