@@ -159,9 +159,9 @@ std::vector<Verdict> judge_scenes(int count, const std::vector<std::vector<Emiss
 /// \param judge_scene function of a class, a scene, the results of all shaders for it, and MethodErrors to add to
 template <class Classes, class Draw, class Run, class JudgeScene>
 std::vector<Verdict> judge_classes(const gpu::Device& device, const Classes& classes, int count,
-                                   const std::vector<std::span<const std::uint32_t>>& shaders,
-                                   std::size_t input_words, const std::vector<std::uint32_t>& words,
-                                   const Draw& draw, const Run& run, const JudgeScene& judge_scene) {
+                                   const std::vector<VariantShader>& shaders, std::size_t input_words,
+                                   const std::vector<std::uint32_t>& words, const Draw& draw, const Run& run,
+                                   const JudgeScene& judge_scene) {
     std::deque<ShaderRunner> runners;
     for (const auto& shader : shaders) runners.emplace_back(device, shader, input_words, words);
     std::vector<Verdict> verdicts(shaders.size());
@@ -186,7 +186,7 @@ template <class Judge>
 ParityCase emission_case(const char* name, int vertices, const Judge& judge) {
     return {"technique", name, [=](const gpu::Device& device, const ParityEffort& effort) {
                 const std::vector<Variant> variants = variants_for(device);
-                std::vector<std::span<const std::uint32_t>> shaders;
+                std::vector<VariantShader> shaders;
                 for (const Variant variant : variants)
                     shaders.push_back(twin_shader(name, vertices, variant));
                 const auto verdicts = judge(device, shaders, effort.lights / 3);

@@ -156,8 +156,8 @@ void judge_scene(const Class& of, const TestMap& map, const Scene& scene,
 }
 
 template <class Pair>
-std::vector<Verdict> judge_pair(const gpu::Device& device,
-                                const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
+std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+                                int count) {
     const TestMaps maps;
     return judge_classes(
         device, kClasses, count, shaders, Pair::kHasLobe ? 18 : 12, maps.words(),
@@ -174,8 +174,7 @@ std::vector<Verdict> judge_pair(const gpu::Device& device,
 } // namespace
 
 std::vector<Verdict> judge_environment(const gpu::Device& device, EnvironmentTechnique technique,
-                                       const std::vector<std::span<const std::uint32_t>>& shaders,
-                                       int count) {
+                                       const std::vector<VariantShader>& shaders, int count) {
     return technique == EnvironmentTechnique::cosine ? judge_pair<Cosine>(device, shaders, count)
                                                      : judge_pair<OnLobe>(device, shaders, count);
 }

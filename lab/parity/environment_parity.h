@@ -3,9 +3,8 @@
 
 #include "gpu/device.h"
 #include "lab/parity/parity_check.h"
+#include "lab/parity/shader_runner.h"
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace nusselt::parity {
@@ -16,6 +15,6 @@ enum class EnvironmentTechnique { cosine, on_lobe };
 /// Judges shaders of one technique on all classes of maps and surfaces, with about `count` surfaces in total.
 /// \return a verdict for each shader
 std::vector<Verdict> judge_environment(const gpu::Device& device, EnvironmentTechnique technique,
-                                       const std::vector<std::span<const std::uint32_t>>& shaders, int count);
+                                       const std::vector<VariantShader>& shaders, int count);
 
 } // namespace nusselt::parity

@@ -109,13 +109,12 @@ inline constexpr double kMostUndefined = 1.0 / 80;
 /// The error from which an output that means nothing counts as different.
 inline constexpr double kClearDifference = 1e-3;
 
-/// Compares a shader of a group with C++. A group is a struct with shaders for devices whose fma() rounds twice or
-/// once. For each call, draw() makes kInputs floats, and call() returns the kOutputs in C++. A group may have a function
+/// Compares a shader of a group with C++. A group is a struct with a shader. For each call, draw() makes kInputs floats, and call() returns the kOutputs in C++. A group may have a function
 /// is_defined(output, exact results): other outputs must be finite only, and few of them may differ from the exact ones.
 /// \param tail excludes the largest error where it depends on chance, because samples may fall on either side of an
 /// edge.
 template <class Group>
-Verdict judge_group(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls,
+Verdict judge_group(const gpu::Device& device, const VariantShader& shader, std::size_t calls,
                     std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -175,7 +174,7 @@ ParityCase group_case(const GroupSettings& settings = {}) {
         const auto table = settings.table ? settings.table() : std::vector<std::uint32_t>();
         std::vector<VariantVerdict> verdicts;
         for (const Variant variant : variants_for(device)) {
-            const auto shader = variant == Variant::fused ? Group::kFused : Group::kSplit;
+            const VariantShader shader(Group::kShader, variant);
             verdicts.push_back({variant, judge_group<Group>(device, shader, calls, table, settings.tail)});
         }
         return verdicts;

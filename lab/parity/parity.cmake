@@ -27,20 +27,16 @@ target_include_directories(nusselt_lab_parity PUBLIC ${CMAKE_CURRENT_BINARY_DIR}
 # nusselt_add_technique_shader() describes the other arguments.
 set(includes)
 set(rows)
-function(add_twin target name technique bound variant entry)
+function(add_twin target name technique bound entry)
     cmake_parse_arguments(arg "" "" "DEFINES" ${ARGN})
-    set(fused 0)
-    if(variant STREQUAL fused)
-        set(fused 1)
-    endif()
     nusselt_vertex_defines(vertices ${technique} ${bound})
     nusselt_snake_case(shader ${name})
-    set(shader twin_${shader}_${bound}_${variant})
+    set(shader twin_${shader}_${bound})
     nusselt_add_technique_shader(${target} ${shader} parity/${entry} ${arg_UNPARSED_ARGUMENTS}
-        DEFINES NUSSELT_FUSED_FMA=${fused} ${arg_DEFINES} ${vertices})
+        DEFINES ${arg_DEFINES} ${vertices})
     nusselt_shader_array(array ${shader})
     list(APPEND includes "#include \"shaders/${shader}.h\"\n")
-    list(APPEND rows "    {\"${name}\", ${bound}, Variant::${variant}, shaders::${array}},\n")
+    list(APPEND rows "    {\"${name}\", ${bound}, shaders::${array}},\n")
     set(includes ${includes} PARENT_SCOPE)
     set(rows ${rows} PARENT_SCOPE)
 endfunction()
@@ -69,17 +65,15 @@ foreach(name IN LISTS nusselt_techniques)
         list(TRANSFORM bounds REPLACE 8 7)
     endif()
     foreach(bound IN LISTS bounds)
-        foreach(variant split fused)
-            add_twin(nusselt_lab_parity ${name} ${name} ${bound} ${variant} ${light} ${arguments})
-        endforeach()
+        add_twin(nusselt_lab_parity ${name} ${name} ${bound} ${light} ${arguments})
     endforeach()
 endforeach()
 
-# The variant whose loops are not marked with [[unroll]].
+# A twin whose loops are not marked with [[unroll]].
 nusselt_shader_arguments(arguments PolygonProjectedSolidAngle)
 foreach(bound 4 8)
-    add_twin(nusselt_lab_parity PolygonProjectedSolidAngle PolygonProjectedSolidAngle ${bound} rolled polygon
-        ${arguments} DEFINES NUSSELT_UNROLL=)
+    add_twin(nusselt_lab_parity RolledPolygonProjectedSolidAngle PolygonProjectedSolidAngle ${bound} polygon ${arguments}
+        DEFINES NUSSELT_UNROLL=)
 endforeach()
 
 list(JOIN includes "" includes)
@@ -87,15 +81,7 @@ list(JOIN rows "" rows)
 configure_file(parity/twins.h.in ${CMAKE_CURRENT_BINARY_DIR}/shaders/twins.h @ONLY)
 
 foreach(functions arithmetic brdf_direct_light bsdf clip engine_table frame light_random line line_direct_light
-    line_shading lobe ltc_table mis phong polygon polygon_brdf polygon_direct_light polygon_shading shading_frame trig
-    visible_normals)
-    foreach(variant "split 0" "fused 1")
-        separate_arguments(variant)
-        list(GET variant 0 suffix)
-        list(GET variant 1 fused)
-        nusselt_add_shader(nusselt_lab_parity ${functions}_${suffix}
-            ${PROJECT_SOURCE_DIR}/shaders/parity/functions/${functions}.comp DEFINES NUSSELT_FUSED_FMA=${fused})
-    endforeach()
+    line_shading lobe ltc_table mis phong polygon polygon_brdf polygon_direct_light polygon_shading random shading_frame
+    trig visible_normals)
+    nusselt_add_shader(nusselt_lab_parity ${functions} ${PROJECT_SOURCE_DIR}/shaders/parity/functions/${functions}.comp)
 endforeach()
-# Functions of integers.
-nusselt_add_shader(nusselt_lab_parity random ${PROJECT_SOURCE_DIR}/shaders/parity/functions/random.comp)

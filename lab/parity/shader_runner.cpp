@@ -1,5 +1,7 @@
 #include "lab/parity/shader_runner.h"
 
+#include "interface/fused_fma.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -12,14 +14,18 @@ constexpr std::size_t kWorkGroup = 64; // as in shaders/parity/buffers.glsl
 
 } // namespace
 
-ShaderRunner::ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader,
-                           std::size_t input_size, std::span<const std::uint32_t> table)
+static_assert(interface::kFusedFmaConstant == 0, "the only constant");
+
+ShaderRunner::ShaderRunner(const gpu::Device& device, const VariantShader& shader, std::size_t input_size,
+                           std::span<const std::uint32_t> table)
     : device_(&device),
       input_size_(input_size),
       inputs_(device, kBatch * input_size * sizeof(float), gpu::Residence::host_visible),
       outputs_(device, kBatch * kOutputSize * sizeof(float), gpu::Residence::host_visible),
-      pipeline_(device, shader,
-                {.storage_buffers = table.empty() ? 2u : 3u, .push_constant_size = sizeof(std::uint32_t)}) {
+      pipeline_(device, shader.spirv,
+                {.storage_buffers = table.empty() ? 2u : 3u,
+                 .push_constant_size = sizeof(std::uint32_t),
+                 .constants = {shader.variant == Variant::fused ? 1u : 0u}}) {
     if (table.empty()) {
         pipeline_.bind({&inputs_, &outputs_});
         return;

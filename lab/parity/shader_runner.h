@@ -2,6 +2,7 @@
 /// Runs shaders that compute numbers from numbers.
 
 #include "gpu/compute_pipeline.h"
+#include "lab/parity/variant_names.h"
 
 #include <array>
 #include <optional>
@@ -9,6 +10,19 @@
 #include <vector>
 
 namespace nusselt::parity {
+
+/// A shader of shaders/parity in one of its variants.
+struct VariantShader {
+    /// \param words SPIR-V
+    VariantShader(std::span<const std::uint32_t> words, Variant of = Variant::split)
+        : spirv(words), variant(of) {}
+    template <std::size_t size>
+    VariantShader(const std::uint32_t (&words)[size])
+        : VariantShader(std::span<const std::uint32_t>(words)) {}
+
+    std::span<const std::uint32_t> spirv;
+    Variant variant;
+};
 
 /// Floats that a shader writes for each light or call.
 inline constexpr std::size_t kOutputSize = 12;
@@ -18,7 +32,7 @@ class ShaderRunner {
 public:
     /// \param input_size floats for each light or call.
     /// \param table      contents of the shader's third buffer; empty if it has none.
-    ShaderRunner(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t input_size,
+    ShaderRunner(const gpu::Device& device, const VariantShader& shader, std::size_t input_size,
                  std::span<const std::uint32_t> table = {});
 
     /// \param inputs input_size floats for each light or call.

@@ -82,14 +82,14 @@ std::string name_of_pair() {
 
 /// The shader of a technique.
 template <class Pair>
-std::span<const std::uint32_t> shader_of(Variant variant) {
+VariantShader shader_of(Variant variant) {
     return twin_shader(Pair::kName, Pair::Traits::kVertexBound, variant);
 }
 
 /// The shaders of a technique.
 template <class Pair>
-std::vector<std::span<const std::uint32_t>> shaders_of(const std::vector<Variant>& variants) {
-    std::vector<std::span<const std::uint32_t>> shaders;
+std::vector<VariantShader> shaders_of(const std::vector<Variant>& variants) {
+    std::vector<VariantShader> shaders;
     for (const Variant variant : variants) shaders.push_back(shader_of<Pair>(variant));
     return shaders;
 }
@@ -155,8 +155,8 @@ std::vector<Verdict> judge_class(const typename Pair::Traits::Class& lights, int
 /// Judges shaders of one technique on all classes for which `is_judged` holds, with about `count` lights in total.
 /// \return a verdict for each shader
 template <class Pair>
-std::vector<Verdict> judge_twins(const gpu::Device& device,
-                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count,
+std::vector<Verdict> judge_twins(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+                                 int count,
                                  const std::function<bool(const typename Pair::Traits::Class&)>& is_judged) {
     using Class = typename Pair::Traits::Class;
     Twins<Pair> twins;
@@ -175,8 +175,8 @@ std::vector<Verdict> judge_twins(const gpu::Device& device,
 
 /// Judges shaders of one technique on the classes that match its bound: 4 or 8 vertices, or lines.
 template <class Pair>
-std::vector<Verdict> judge_twins(const gpu::Device& device,
-                                 const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
+std::vector<Verdict> judge_twins(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+                                 int count) {
     return judge_twins<Pair>(device, shaders, count, [](const auto& lights) {
         return lab::fits_bound(lights, Pair::Traits::kVertexBound);
     });
@@ -184,13 +184,13 @@ std::vector<Verdict> judge_twins(const gpu::Device& device,
 
 /// Judges one shader of a technique likewise.
 template <class Pair>
-Verdict judge_twin(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
+Verdict judge_twin(const gpu::Device& device, const VariantShader& shader, int count) {
     return judge_twins<Pair>(device, {shader}, count).front();
 }
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.
 template <class Pair>
-std::string first_violation(const gpu::Device& device, std::span<const std::uint32_t> shader, int count) {
+std::string first_violation(const gpu::Device& device, const VariantShader& shader, int count) {
     using TwinOf = Twin<typename Pair::Traits>;
     TwinOf twin(device, shader);
     std::vector<typename TwinOf::Input> inputs(static_cast<std::size_t>(count));

@@ -33,7 +33,7 @@ public:
         Random u;
     };
 
-    Twin(const gpu::Device& device, std::span<const std::uint32_t> shader)
+    Twin(const gpu::Device& device, const VariantShader& shader)
         : runner_(device, shader, sizeof(Input) / sizeof(float)) {}
 
     std::vector<Outputs> run(const std::vector<Input>& inputs) {

@@ -8,11 +8,17 @@
 
 namespace nusselt::parity {
 
-std::span<const std::uint32_t> twin_shader(std::string_view technique, int vertex_bound, Variant variant) {
-    for (const TwinShader& shader : kTwinShaders)
-        if (shader.technique == technique && shader.vertex_bound == vertex_bound && shader.variant == variant)
-            return shader.spirv;
+std::span<const std::uint32_t> find_twin(std::span<const TwinShader> shaders, std::string_view technique,
+                                         int vertex_bound) {
+    for (const TwinShader& shader : shaders)
+        if (shader.technique == technique && shader.vertex_bound == vertex_bound) return shader.spirv;
     throw std::logic_error("no such twin of " + std::string(technique));
+}
+
+VariantShader twin_shader(std::string_view technique, int vertex_bound, Variant variant) {
+    std::string name(technique);
+    if (variant == Variant::rolled) name.insert(0, "Rolled");
+    return {find_twin(kTwinShaders, name, vertex_bound), variant};
 }
 
 std::vector<Variant> variants_for(const gpu::Device& device) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The variants of shaders, by how they take exact products.
+/// The variants of a shader, by how it takes exact products.
 
 #include <cstddef>
 

@@ -252,8 +252,8 @@ void judge_scene(const Class& of, const Scene& scene, const std::vector<Emission
 }
 
 template <class Pair>
-std::vector<Verdict> judge_pair(const gpu::Device& device,
-                                const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
+std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+                                int count) {
     const WindowedTestLights lights;
     return judge_classes(
         device, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
@@ -267,7 +267,7 @@ std::vector<Verdict> judge_pair(const gpu::Device& device,
 } // namespace
 
 std::vector<Verdict> judge_windowed(const gpu::Device& device, WindowedTechnique technique,
-                                    const std::vector<std::span<const std::uint32_t>>& shaders, int count) {
+                                    const std::vector<VariantShader>& shaders, int count) {
     return technique == WindowedTechnique::diffuse ? judge_pair<Diffuse>(device, shaders, count)
                                                    : judge_pair<OnLobe>(device, shaders, count);
 }

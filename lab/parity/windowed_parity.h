@@ -4,9 +4,8 @@
 
 #include "gpu/device.h"
 #include "lab/parity/parity_check.h"
+#include "lab/parity/shader_runner.h"
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
 namespace nusselt::parity {
@@ -17,6 +16,6 @@ enum class WindowedTechnique { diffuse, on_lobe };
 /// Judges shaders of one technique on all classes of lights, with about `count` scenes in total.
 /// \return a verdict for each shader
 std::vector<Verdict> judge_windowed(const gpu::Device& device, WindowedTechnique technique,
-                                    const std::vector<std::span<const std::uint32_t>>& shaders, int count);
+                                    const std::vector<VariantShader>& shaders, int count);
 
 } // namespace nusselt::parity

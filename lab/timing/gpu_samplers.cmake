@@ -4,8 +4,7 @@
 set(includes)
 set(rows)
 
-# Adds variants for devices whose fma rounds twice or once. Polygons have room for the vertices that `technique`
-# needs. `suffix` is empty, or _direction for samples without density and hit point.
+# Polygons have room for the vertices that `technique` needs. `suffix` is empty, or _direction for samples without density and hit point.
 # nusselt_add_technique_shader() describes the other arguments.
 function(add_timed_shaders name technique light vertex_count suffix file struct)
     nusselt_snake_case(shader ${name})
@@ -15,13 +14,10 @@ function(add_timed_shaders name technique light vertex_count suffix file struct)
         set(directions true)
     endif()
     nusselt_vertex_defines(vertices ${technique} ${vertex_count})
-    foreach(fused 0 1)
-        nusselt_add_technique_shader(nusselt_lab ${shader}_${fused} bench/${light}${suffix} ${file} ${struct} ${ARGN}
-            DEFINES ${vertices} NUSSELT_FUSED_FMA=${fused})
-        nusselt_shader_array(array ${shader}_${fused})
-        list(APPEND includes "#include \"shaders/${shader}_${fused}.h\"\n")
-        list(APPEND rows "    {\"${name}\", LightKind::${light}, ${vertex_count}, ${fused} == 1, ${directions}, shaders::${array}},\n")
-    endforeach()
+    nusselt_add_technique_shader(nusselt_lab ${shader} bench/${light}${suffix} ${file} ${struct} ${ARGN} DEFINES ${vertices})
+    nusselt_shader_array(array ${shader})
+    list(APPEND includes "#include \"shaders/${shader}.h\"\n")
+    list(APPEND rows "    {\"${name}\", LightKind::${light}, ${vertex_count}, ${directions}, shaders::${array}},\n")
     set(includes ${includes} PARENT_SCOPE)
     set(rows ${rows} PARENT_SCOPE)
 endfunction()

@@ -85,11 +85,13 @@ Columns columns_of(const TimedConfiguration& c, const TimedLights& lights) {
 /// One shader with one workload.
 class Workload {
 public:
+    /// \param fused_fma       as gpu::has_fused_fma() says.
     /// \param lights, samples of each light, in each thread.
-    Workload(const gpu::Device& device, const GpuSamplerShader& shader, std::uint32_t lights,
+    Workload(const gpu::Device& device, const GpuSamplerShader& shader, bool fused_fma, std::uint32_t lights,
              std::uint32_t samples, const gpu::Buffer& columns, const gpu::Buffer& sums)
         : device_(&device),
-          pipeline_(device, shader.spirv, {.storage_buffers = 2, .constants = {lights, samples}}) {
+          pipeline_(device, shader.spirv,
+                    {.storage_buffers = 2, .constants = {fused_fma ? 1u : 0u, lights, samples}}) {
         pipeline_.bind({&columns, &sums});
     }
 
@@ -185,10 +187,9 @@ GpuSamplerTable time_gpu_samplers(const GpuSamplerSettings& settings) {
 
     std::vector<std::unique_ptr<Timed>> all;
     for (const GpuSamplerShader& shader : kGpuSamplerShaders)
-        if (shader.fused_fma == fused)
-            all.push_back(std::make_unique<Timed>(Timed{&shader,
-                                                        {device, shader, kRepeats, 1, columns, sums},
-                                                        {device, shader, 1, kRepeats, columns, sums}}));
+        all.push_back(std::make_unique<Timed>(Timed{&shader,
+                                                    {device, shader, fused, kRepeats, 1, columns, sums},
+                                                    {device, shader, fused, 1, kRepeats, columns, sums}}));
     const std::vector<TimedConfiguration> configurations = timed_configurations();
     const auto lights = std::make_unique<TimedLights>();
     std::vector<Running> all_running;

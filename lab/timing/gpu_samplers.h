@@ -32,7 +32,7 @@ struct GpuSamplerSettings {
 struct GpuSamplerTable {
     gpu::DeviceDescription device;
     gpu::Clock clock;
-    bool fused_fma; ///< which variant of the shaders ran
+    bool fused_fma; ///< see gpu::has_fused_fma()
     /// The number of llvmpipe's threads from the environment variable LP_NUM_THREADS, empty if it is not set. None
     /// for other devices.
     std::optional<std::string> llvmpipe_threads;

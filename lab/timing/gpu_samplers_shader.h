@@ -12,8 +12,7 @@ struct GpuSamplerShader {
     const char* technique; ///< class name, or "Baseline"
     LightKind kind;
     int vertex_count; ///< 2 for lines
-    bool fused_fma;
-    bool directions; ///< samples have neither density nor hit point
+    bool directions;  ///< samples have neither density nor hit point
     std::span<const std::uint32_t> spirv;
 };
 

@@ -2,8 +2,8 @@
 // after the technique.
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kLightCount = 1u;  // prepared by each thread
-layout(constant_id = 1) const uint kSampleCount = 1u; // of each light
+layout(constant_id = 1) const uint kLightCount = 1u;  // prepared by each thread
+layout(constant_id = 2) const uint kSampleCount = 1u; // of each light
 layout(set = 0, binding = 0, std430) readonly buffer Lights { float columns[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Sums { vec4 sums[]; };
 

@@ -7,21 +7,21 @@
 namespace nusselt::interface {
 #endif
 
-// Numbers of specialisation constants: what a scene has (shaders/passes/scene_kinds.glsl), ...
-const int kInstancesConstant = 0;
-const int kPartialConstant = 1;
-const int kFrostbiteConstant = 2;
-const int kPhongConstant = 3;
-const int kTextureKindsConstant = 4;
+// Numbers of specialisation constants after kFusedFmaConstant: what a scene has (shaders/passes/scene_kinds.glsl), ...
+const int kInstancesConstant = 1;
+const int kPartialConstant = 2;
+const int kFrostbiteConstant = 3;
+const int kPhongConstant = 4;
+const int kTextureKindsConstant = 5;
 // ... then settings, ...
-const int kTechniqueConstant = 5;
-const int kStrategiesConstant = 6;
-const int kMisConstant = 7;
-const int kSamplerConstant = 8;
-const int kBrdfConstant = 9;
-const int kEmissionSamplingConstant = 10;
+const int kTechniqueConstant = 6;
+const int kStrategiesConstant = 7;
+const int kMisConstant = 8;
+const int kSamplerConstant = 9;
+const int kBrdfConstant = 10;
+const int kEmissionSamplingConstant = 11;
 // ... then those of lights (shaders/interface/lights.h).
-const int kFirstLightConstant = 11;
+const int kFirstLightConstant = 12;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

@@ -4,6 +4,7 @@
 /// Integrates linearly transformed cosines over all lights, without samples and without shadows, as
 /// src/render_cpu/kernel/analytic.h does.
 
+#include "interface/fused_fma.h"
 #include "passes/lights.glsl"
 #include "passes/reflection.glsl"
 #include "passes/shading.glsl"

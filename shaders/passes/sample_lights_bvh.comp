@@ -3,6 +3,7 @@
 #extension GL_EXT_control_flow_attributes : require
 /// sample_lights.glsl with shadow rays that traverse a hierarchy in buffers.
 
+#include "interface/fused_fma.h"
 #include "interface/bvh.h"
 #include "passes/alpha.glsl"
 

@@ -4,6 +4,7 @@
 #extension GL_EXT_ray_query : require
 /// sample_lights.glsl with shadow rays that the driver traces (ray queries).
 
+#include "interface/fused_fma.h"
 #include "interface/query.h"
 #include "passes/alpha.glsl"
 

@@ -5,4 +5,5 @@
 
 bool occluded(vec3 origin, vec3 direction, float t_far) { return false; }
 
+#include "interface/fused_fma.h"
 #include "passes/sample_lights.glsl"

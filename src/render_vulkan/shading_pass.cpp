@@ -1,6 +1,7 @@
 #include "render_vulkan/shading_pass.h"
 
 #include "gpu/fused_fma.h"
+#include "interface/fused_fma.h"
 #include "interface/settings.h"
 #include "render_vulkan/shading_shaders.h"
 
@@ -36,14 +37,12 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    const bool has_cells = has_emission_cells(constants);
-    // Shaders with cells do without fused fma, which is right for all devices.
-    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device) && !has_cells, textures.access(),
-                                has_cells};
+    const ShaderVariant variant{scene.polygon_slots(), textures.access(), has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants
     };
+    interface.constants[interface::kFusedFmaConstant] = has_fused_fma(device) ? 1 : 0;
     if (is_analytic(constants))
         return {device, shading_shader(ShadingPassKind::integrate_lights, variant), interface};
     interface.storage_buffers += static_cast<std::uint32_t>(shadows.buffers().size());

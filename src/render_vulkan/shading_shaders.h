@@ -23,10 +23,8 @@ ShadingPassKind sampling_pass(ShadowRays way);
 /// The options that a shader is compiled with.
 struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see LightRecords
-    bool fused_fma;    ///< see gpu::has_fused_fma()
     TextureAccess textures;
-    bool
-        emission_cells; ///< whether images of lights decide where samples are: with 8 slots and without fused fma only
+    bool emission_cells; ///< whether images of lights decide where samples are: with 8 slots only
     bool operator==(const ShaderVariant&) const = default;
 };
 

@@ -14,7 +14,7 @@ namespace {
 class EnvironmentMutants : public GpuTest {
 protected:
     /// No more surfaces than the quick effort draws.
-    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+    std::vector<std::string> excesses_of(const VariantShader& shader) const {
         return judge_environment(device(), EnvironmentTechnique::cosine, {shader}, 9'000).front().excesses;
     }
 };

@@ -31,7 +31,8 @@ TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
 
 TEST_F(FunctionMutant, TheVariantForAFusedFmaIsRejectedWhereFmaRoundsTwice) {
     if (gpu::has_fused_fma(device())) GTEST_SKIP() << "the device fuses fma";
-    EXPECT_FALSE(judge_group<Arithmetic>(device(), shaders::kArithmeticFused, kMutantCalls).excesses.empty());
+    EXPECT_FALSE(judge_group<Arithmetic>(device(), {Arithmetic::kShader, Variant::fused}, kMutantCalls)
+                     .excesses.empty());
 }
 
 class LtcFunctionMutant : public GpuTest {};

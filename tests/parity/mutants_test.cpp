@@ -17,7 +17,7 @@ using ProjectedPair = TechniquePair<hostile::PolygonProjectedSolidAngleKindOf<4>
 class MutantParity : public GpuTest {
 protected:
     template <class Pair>
-    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+    std::vector<std::string> excesses_of(const VariantShader& shader) const {
         return judge_twin<Pair>(device(), shader, kMutantLights).excesses;
     }
 };

@@ -32,11 +32,8 @@ struct ReplacedPair {
 };
 
 template <class Pair>
-std::span<const std::uint32_t> related_shader(Variant variant) {
-    for (const TwinShader& shader : kRelatedTwinShaders)
-        if (shader.technique == std::string_view(Pair::kName) && shader.variant == variant)
-            return shader.spirv;
-    throw std::logic_error("no such twin of " + std::string(Pair::kName));
+VariantShader related_shader(Variant variant) {
+    return {find_twin(kRelatedTwinShaders, Pair::kName, Pair::Traits::kVertexBound), variant};
 }
 
 template <class Pair>
@@ -45,7 +42,7 @@ std::vector<VariantVerdict> judge_ordinary_lights(const gpu::Device& device, con
     for (const proof::TubeLight& tube : proof::tube_lights()) ordinary.insert(tube.name);
     const auto is_judged = [&](const auto& lights) { return ordinary.count(lights.name) > 0; };
     const std::vector<Variant> variants = variants_for(device);
-    std::vector<std::span<const std::uint32_t>> shaders;
+    std::vector<VariantShader> shaders;
     for (const Variant variant : variants) shaders.push_back(related_shader<Pair>(variant));
     const auto verdicts = judge_twins<Pair>(device, shaders, effort.lights / 10, is_judged);
     std::vector<VariantVerdict> results;

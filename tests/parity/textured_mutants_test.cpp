@@ -14,7 +14,7 @@ namespace {
 class TexturedMutants : public GpuTest {
 protected:
     /// No more lights than the quick effort draws.
-    std::vector<std::string> excesses_of(std::span<const std::uint32_t> shader) const {
+    std::vector<std::string> excesses_of(const VariantShader& shader) const {
         return judge_textured(device(), TexturedTechnique::diffuse, {shader}, 12'000).front().excesses;
     }
 };

@@ -24,6 +24,11 @@ mkdir -p "$work"
 cmake -D SHADERS="$shaders" -D OUTPUT="$work/flat" -P "$root/scripts/flatten-glsl.cmake"
 files=$(cd "$shaders" && find . -name '*.glsl' -printf '%P\n' | sort)
 [ -n "$files" ] || { echo "no shaders in $shaders"; exit 1; }
+# To the preprocessor, the name of a specialisation constant is 0.
+if grep -rnE '^#\s*(el)?if.*NUSSELT_FUSED_FMA' --exclude=compatibility.glsl "$shaders"; then
+    echo "branches on NUSSELT_FUSED_FMA use kNusseltFusedFma instead of the preprocessor"
+    failed=1
+fi
 defaults=$(grep -hs NUSSELT_MAX_VERTICES "$shaders/core/compatibility.glsl" || true)
 for file in $files; do
     flat=$work/flat/$(basename "$file")
@@ -34,12 +39,11 @@ for file in $files; do
     program=$(sed -n -e 's/^\(uint [a-z_]*_word(uint at)\);$/\1 { return at; }/p' \
         -e 's/^\(vec3 environment_map_texel(uint map, ivec2 at)\);$/\1 { return vec3(vec2(at), float(map)); }/p' "$flat")
     for vertices in "${bounds[@]}"; do
-        for fused in 0 1; do
-            options=("#define NUSSELT_MAX_VERTICES $vertices" "#define NUSSELT_FUSED_FMA $fused")
-            printf '%s\n' '#version 450' '#extension GL_GOOGLE_include_directive : require' "${options[@]}" \
-                "#include \"$file\"" "#include \"$file\"" "$program" 'void main() {}' >"$work/source.comp"
-            compile "$work/source.comp" "$file, $vertices vertices, fused $fused" -V -I"$shaders" -o "$work/source.spv"
-        done
+        printf '%s\n' '#version 450' '#extension GL_GOOGLE_include_directive : require' \
+            'layout(constant_id = 0) const bool fused = false;' '#define NUSSELT_FUSED_FMA fused' \
+            "#define NUSSELT_MAX_VERTICES $vertices" "#include \"$file\"" "#include \"$file\"" "$program" \
+            'void main() {}' >"$work/source.comp"
+        compile "$work/source.comp" "$file, $vertices vertices" -V -I"$shaders" -o "$work/source.spv"
         {
             printf '%s\n' '#version 450' "#define NUSSELT_MAX_VERTICES $vertices"
             cat "$flat"

@@ -4,18 +4,12 @@
 #include "lab/parity/function_parity.h"
 #include "lab/parity/table_words.h"
 #include "render/settings.h"
-#include "shaders/brdf_direct_light_fused.h"
-#include "shaders/brdf_direct_light_split.h"
-#include "shaders/line_direct_light_fused.h"
-#include "shaders/line_direct_light_split.h"
-#include "shaders/mis_fused.h"
-#include "shaders/mis_split.h"
-#include "shaders/polygon_brdf_fused.h"
-#include "shaders/polygon_brdf_split.h"
-#include "shaders/polygon_direct_light_fused.h"
-#include "shaders/polygon_direct_light_split.h"
-#include "shaders/visible_normals_fused.h"
-#include "shaders/visible_normals_split.h"
+#include "shaders/brdf_direct_light.h"
+#include "shaders/line_direct_light.h"
+#include "shaders/mis.h"
+#include "shaders/polygon_brdf.h"
+#include "shaders/polygon_direct_light.h"
+#include "shaders/visible_normals.h"
 
 #include <nusselt/estimate/direct_light.h>
 
@@ -54,8 +48,7 @@ inline Mis heuristic_of(float input) { return static_cast<Mis>(static_cast<std::
 
 struct Heuristics {
     static constexpr const char* kName = "heuristics";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kMisSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kMisFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kMis;
     static constexpr std::size_t kInputs = 20;
     static constexpr Output kOutputs[] = {{"shadowed, red", Error::relative},
                                           {"shadowed, green", Error::relative},
@@ -124,8 +117,7 @@ inline void draw_ggx_lobe(RandomSource& random, std::vector<float>& inputs) {
 
 struct VisibleNormals {
     static constexpr const char* kName = "visible normals";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kVisibleNormalsSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kVisibleNormalsFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kVisibleNormals;
     static constexpr std::size_t kInputs = 9;
     static constexpr Output kOutputs[] = {{"sample.x", Error::absolute},
                                           {"sample.y", Error::absolute},
@@ -162,8 +154,7 @@ struct VisibleNormals {
 
 struct PolygonBrdfSampling {
     static constexpr const char* kName = "sampling of the BRDF";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonBrdfSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonBrdfFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonBrdf;
     static constexpr std::size_t kInputs = 21;
     static constexpr Output kOutputs[] = {
         {"wi.x", Error::absolute}, {"wi.y", Error::absolute},
@@ -304,8 +295,7 @@ inline Mis draw_estimate(RandomSource& random) {
 
 struct PolygonDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for polygons";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonDirectLightSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonDirectLightFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonDirectLight;
     static constexpr std::size_t kInputs = 12 + kSurfaceSize + Choice::kSize;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
@@ -328,8 +318,7 @@ struct PolygonDirectLight : SampleOutputs {
 
 struct LineDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for lines";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineDirectLightSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kLineDirectLightFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kLineDirectLight;
     static constexpr std::size_t kInputs = 6 + kSurfaceSize + Choice::kSize;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
@@ -350,8 +339,7 @@ struct LineDirectLight : SampleOutputs {
 /// A pair of techniques whose densities the test sets and whose samples may miss the light.
 struct BrdfDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for other pairs";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kBrdfDirectLightSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kBrdfDirectLightFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kBrdfDirectLight;
     static constexpr std::size_t kInputs = PolygonDirectLight::kInputs;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {

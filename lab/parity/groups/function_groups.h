@@ -2,22 +2,14 @@
 /// Groups of functions below the techniques: each has a shader, draws inputs, and makes the calls of the shader in C++.
 
 #include "lab/parity/function_parity.h"
-#include "shaders/arithmetic_fused.h"
-#include "shaders/arithmetic_split.h"
-#include "shaders/bsdf_fused.h"
-#include "shaders/bsdf_split.h"
-#include "shaders/clip_fused.h"
-#include "shaders/clip_split.h"
-#include "shaders/frame_fused.h"
-#include "shaders/frame_split.h"
-#include "shaders/line_fused.h"
-#include "shaders/line_split.h"
-#include "shaders/phong_fused.h"
-#include "shaders/phong_split.h"
-#include "shaders/polygon_fused.h"
-#include "shaders/polygon_split.h"
-#include "shaders/trig_fused.h"
-#include "shaders/trig_split.h"
+#include "shaders/arithmetic.h"
+#include "shaders/bsdf.h"
+#include "shaders/clip.h"
+#include "shaders/frame.h"
+#include "shaders/line.h"
+#include "shaders/phong.h"
+#include "shaders/polygon.h"
+#include "shaders/trig.h"
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/lambert.h>
@@ -32,8 +24,7 @@ namespace nusselt::parity {
 
 struct Arithmetic {
     static constexpr const char* kName = "arithmetic";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kArithmeticSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kArithmeticFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kArithmetic;
     static constexpr std::size_t kInputs = 11;
     static constexpr Output kOutputs[] = {{"difference_of_products", Error::relative},
                                           {"two_product_error", Error::relative},
@@ -90,8 +81,7 @@ struct Arithmetic {
 
 struct Trigonometry {
     static constexpr const char* kName = "trigonometry";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kTrigSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kTrigFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kTrig;
     static constexpr std::size_t kInputs = 4;
     static constexpr Output kOutputs[] = {
         {"atan2_positive", Error::relative},           {"sine of a half turn", Error::absolute},
@@ -132,8 +122,7 @@ struct Trigonometry {
 
 struct Frames {
     static constexpr const char* kName = "frames";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kFrameSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kFrameFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kFrame;
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {
         {"t.x", Error::absolute},     {"t.y", Error::absolute},     {"t.z", Error::absolute},
@@ -166,8 +155,7 @@ struct Frames {
 
 struct Brdfs {
     static constexpr const char* kName = "BRDFs";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kBsdfSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kBsdfFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kBsdf;
     static constexpr std::size_t kInputs = 13;
     static constexpr Output kOutputs[] = {
         {"Frostbite, red", Error::relative},  {"Frostbite, green", Error::relative},
@@ -206,8 +194,7 @@ struct Brdfs {
 
 struct PhongLobes {
     static constexpr const char* kName = "Phong lobes";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPhongSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kPhongFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kPhong;
     static constexpr std::size_t kInputs = 11;
     static constexpr Output kOutputs[] = {{"red", Error::relative},
                                           {"green", Error::relative},
@@ -270,8 +257,7 @@ inline void draw_surface(RandomSource& random, const Vec3<double>& corner, std::
 
 struct Polygons {
     static constexpr const char* kName = "polygons";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygon;
     static constexpr std::size_t kInputs = 18;
     static constexpr Output kOutputs[] = {{"area", Error::relative},
                                           {"solid angle", Error::measure},
@@ -307,8 +293,7 @@ struct Polygons {
 
 struct Clipping {
     static constexpr const char* kName = "clipping";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kClipSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kClipFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kClip;
     static constexpr std::size_t kInputs = 13;
     static constexpr Output kOutputs[] = {
         {"vertex.x", Error::absolute}, {"vertex.y", Error::absolute}, {"vertex.z", Error::absolute},
@@ -341,8 +326,7 @@ struct Clipping {
 
 struct Lines {
     static constexpr const char* kName = "lines";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kLineFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kLine;
     static constexpr std::size_t kInputs = 12;
     static constexpr Output kOutputs[] = {{"length", Error::relative},
                                           {"solid angle", Error::measure},

@@ -4,18 +4,12 @@
 #include "lab/accuracy/lobe_lights.h"
 #include "lab/parity/function_parity.h"
 #include "lab/parity/table_words.h"
-#include "shaders/engine_table_fused.h"
-#include "shaders/engine_table_split.h"
-#include "shaders/line_shading_fused.h"
-#include "shaders/line_shading_split.h"
-#include "shaders/lobe_fused.h"
-#include "shaders/lobe_split.h"
-#include "shaders/ltc_table_fused.h"
-#include "shaders/ltc_table_split.h"
-#include "shaders/polygon_shading_fused.h"
-#include "shaders/polygon_shading_split.h"
-#include "shaders/shading_frame_fused.h"
-#include "shaders/shading_frame_split.h"
+#include "shaders/engine_table.h"
+#include "shaders/line_shading.h"
+#include "shaders/lobe.h"
+#include "shaders/ltc_table.h"
+#include "shaders/polygon_shading.h"
+#include "shaders/shading_frame.h"
 #include "tables/engine_table.h"
 
 #include <nusselt/ltc/line_shading.h>
@@ -43,8 +37,7 @@ inline constexpr std::size_t kLobeSize = 6;
 
 struct ShadingFrames {
     static constexpr const char* kName = "shading frames";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kShadingFrameSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kShadingFrameFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kShadingFrame;
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {
         {"t.x", Error::absolute}, {"t.y", Error::absolute}, {"t.z", Error::absolute},
@@ -71,8 +64,7 @@ struct ShadingFrames {
 
 struct Lobes {
     static constexpr const char* kName = "lobes";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kLobeSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kLobeFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kLobe;
     static constexpr std::size_t kInputs = kLobeSize + 3;
     static constexpr Output kOutputs[] = {{"to_cosine, x", Error::relative},
                                           {"to_cosine, y", Error::relative},
@@ -113,8 +105,7 @@ struct Lobes {
 
 struct PolygonShading {
     static constexpr const char* kName = "shading with polygons";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kPolygonShadingSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kPolygonShadingFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonShading;
     static constexpr std::size_t kInputs = 12 + kLobeSize;
     static constexpr Output kOutputs[] = {
         {"diffuse_integral", Error::absolute},      {"lobe_integral", Error::absolute},
@@ -147,8 +138,7 @@ struct PolygonShading {
 
 struct LineShading {
     static constexpr const char* kName = "shading with lines";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kLineShadingSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kLineShadingFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kLineShading;
     static constexpr std::size_t kInputs = 10 + kLobeSize;
     static constexpr Output kOutputs[] = {{"diffuse_integral", Error::measure},
                                           {"lobe_integral", Error::measure},
@@ -215,8 +205,7 @@ Results<Real> results_of(const LtcCoefficients<Real>& lobe) {
 /// The table with 16-bit numbers, which the device decodes.
 struct Table {
     static constexpr const char* kName = "table of 16 bits";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kLtcTableSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kLtcTableFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kLtcTable;
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {{"m00", Error::absolute},
                                           {"m02", Error::absolute},
@@ -253,8 +242,7 @@ inline const tables::LtcTable& engine_table() {
 /// The table with half-precision floats.
 struct EngineTable {
     static constexpr const char* kName = "table of half floats";
-    static constexpr std::span<const std::uint32_t> kSplit = shaders::kEngineTableSplit;
-    static constexpr std::span<const std::uint32_t> kFused = shaders::kEngineTableFused;
+    static constexpr std::span<const std::uint32_t> kShader = shaders::kEngineTable;
     static constexpr std::size_t kInputs = 3;
     static constexpr Output kOutputs[] = {{"m00", Error::absolute},     {"m02", Error::absolute},
                                           {"1 / m11", Error::absolute}, {"m20 over width", Error::absolute},

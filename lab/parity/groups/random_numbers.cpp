@@ -3,8 +3,7 @@
 #include "lab/parity/shader_runner.h"
 #include "lab/parity/table_words.h"
 #include "proof/hostile/lights.h"
-#include "shaders/light_random_fused.h"
-#include "shaders/light_random_split.h"
+#include "shaders/light_random.h"
 #include "shaders/random.h"
 #include "tables/blue_noise.h"
 
@@ -97,9 +96,7 @@ std::vector<VariantVerdict> judge_light_random(const gpu::Device& device, const 
     const std::size_t calls = effort.random_calls();
     std::vector<VariantVerdict> results;
     for (const Variant variant : variants_for(device)) {
-        const auto shader = variant == Variant::fused
-                                ? std::span<const std::uint32_t>(shaders::kLightRandomFused)
-                                : shaders::kLightRandomSplit;
+        const VariantShader shader(shaders::kLightRandom, variant);
         const auto different = different_random_numbers(device, shader, calls);
         results.push_back(equal_bits(variant, std::accumulate(different.begin(), different.end(), 0), calls));
     }
@@ -109,8 +106,7 @@ std::vector<VariantVerdict> judge_light_random(const gpu::Device& device, const 
 } // namespace
 
 std::array<int, kSamplers + 1> different_random_numbers(const gpu::Device& device,
-                                                        std::span<const std::uint32_t> shader,
-                                                        std::size_t calls) {
+                                                        const VariantShader& shader, std::size_t calls) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
         const Call c = draw_call(i);

@@ -2,6 +2,7 @@
 /// Random numbers of renderers, which have the same bits on devices and in C++.
 
 #include "gpu/device.h"
+#include "lab/parity/shader_runner.h"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace nusselt::parity {
 inline constexpr int kSamplers = 6;
 
 /// How many numbers of a shader differ from those of C++, for each sampler and, in the last entry, for camera rays.
-std::array<int, kSamplers + 1>
-different_random_numbers(const gpu::Device& device, std::span<const std::uint32_t> shader, std::size_t calls);
+std::array<int, kSamplers + 1> different_random_numbers(const gpu::Device& device,
+                                                        const VariantShader& shader, std::size_t calls);
 
 } // namespace nusselt::parity

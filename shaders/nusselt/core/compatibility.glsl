@@ -10,11 +10,13 @@
 #define NUSSELT_MAX_VERTICES 4
 #endif
 
-/// 1 if the built-in fma() of the device rounds once, which nusselt_fma_is_fused() detects. With 0 the library takes
-/// products apart where it needs their rounding error: correct on every device, but several times as many instructions.
+/// 1, or a specialization constant that is true, if the built-in fma() of the device rounds once, which
+/// nusselt_fma_is_fused() detects. With 0 the library takes products apart where it needs their rounding error: correct on
+/// every device, but several times as many instructions.
 #ifndef NUSSELT_FUSED_FMA
 #define NUSSELT_FUSED_FMA 0
 #endif
+const bool kNusseltFusedFma = bool(NUSSELT_FUSED_FMA);
 
 /// Before each loop over the vertices or sectors of a light. With [[unroll]] (GL_EXT_control_flow_attributes) arrays
 /// stay in registers also where the compiler would not unroll by itself.
@@ -32,6 +34,11 @@
 #endif
 precision highp float;
 precision highp int;
+#if __VERSION__ < 320
+// Stands in the branches that NUSSELT_FUSED_FMA rules out.
+float fma(float a, float b, float c) { return a * b + c; }
+vec3 fma(vec3 a, vec3 b, vec3 c) { return a * b + c; }
+#endif
 #define NUSSELT_PRECISE
 #else
 /// Expressions that the compiler must evaluate as they are written.

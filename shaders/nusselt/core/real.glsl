@@ -41,78 +41,72 @@ float below_one(float x) { return nusselt_min(nusselt_max(x, 0.0), 0.99999994039
 
 /// a * b + c, rounded once or twice.
 float nusselt_fma(float a, float b, float c) {
-#if NUSSELT_FUSED_FMA
-    return fma(a, b, c);
-#else
-    return a * b + c;
-#endif
+    return kNusseltFusedFma ? fma(a, b, c) : a * b + c;
 }
 vec3 nusselt_fma(float s, vec3 a, vec3 b) {
-#if NUSSELT_FUSED_FMA
-    return fma(vec3(s), a, b);
-#else
-    return s * a + b;
-#endif
+    return kNusseltFusedFma ? fma(vec3(s), a, b) : s * a + b;
 }
 
-#if !NUSSELT_FUSED_FMA
 /// The upper 12 bits of the significand. Products of such parts, and of what they leave, are exact.
 float upper_part(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u); }
 vec3 upper_part(vec3 x) { return uintBitsToFloat(floatBitsToUint(x) & 0xfffff000u); }
-#endif
 
 /// a * b - product, exact barring underflow.
 /// \param product a * b, rounded.
 float two_product_error(float a, float b, float product) {
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE float error = fma(a, b, -product);
-#else
+    NUSSELT_PRECISE float error;
+    if (kNusseltFusedFma) {
+        error = fma(a, b, -product);
+        return error;
+    }
     // Dekker 1971, doi:10.1007/BF01397083; the halves of the factors have the same sign here.
     float ah = upper_part(a);
     float bh = upper_part(b);
     NUSSELT_PRECISE float al = a - ah;
     NUSSELT_PRECISE float bl = b - bh;
-    NUSSELT_PRECISE float error = ((ah * bh - product) + ah * bl + al * bh) + al * bl;
-#endif
+    error = ((ah * bh - product) + ah * bl + al * bh) + al * bl;
     return error;
 }
 vec3 two_product_error(vec3 a, vec3 b, vec3 product) {
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE vec3 error = fma(a, b, -product);
-#else
+    NUSSELT_PRECISE vec3 error;
+    if (kNusseltFusedFma) {
+        error = fma(a, b, -product);
+        return error;
+    }
     vec3 ah = upper_part(a);
     vec3 bh = upper_part(b);
     NUSSELT_PRECISE vec3 al = a - ah;
     NUSSELT_PRECISE vec3 bl = b - bh;
-    NUSSELT_PRECISE vec3 error = ((ah * bh - product) + ah * bl + al * bh) + al * bl;
-#endif
+    error = ((ah * bh - product) + ah * bl + al * bh) + al * bl;
     return error;
 }
 
 /// s * a + b, each component rounded once up to ties.
 vec3 exact_fma(float s, vec3 a, vec3 b) {
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE vec3 result = fma(vec3(s), a, b);
-#else
+    NUSSELT_PRECISE vec3 result;
+    if (kNusseltFusedFma) {
+        result = fma(vec3(s), a, b);
+        return result;
+    }
     NUSSELT_PRECISE vec3 product = s * a;
     vec3 error = two_product_error(vec3(s), a, product);
     NUSSELT_PRECISE vec3 sum = product + b;
     NUSSELT_PRECISE vec3 added = sum - product;
     NUSSELT_PRECISE vec3 lost = (product - (sum - added)) + (b - added);
-    NUSSELT_PRECISE vec3 result = sum + (lost + error);
-#endif
+    result = sum + (lost + error);
     return result;
 }
 
 /// s * a + b with an error of two roundings of each component: faster than exact_fma().
 vec3 rounded_multiply_add(float s, vec3 a, vec3 b) {
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE vec3 result = fma(vec3(s), a, b);
-#else
+    NUSSELT_PRECISE vec3 result;
+    if (kNusseltFusedFma) {
+        result = fma(vec3(s), a, b);
+        return result;
+    }
     // Where the product and b cancel, their sum is exact.
     NUSSELT_PRECISE vec3 product = s * a;
-    NUSSELT_PRECISE vec3 result = (product + b) + two_product_error(vec3(s), a, product);
-#endif
+    result = (product + b) + two_product_error(vec3(s), a, product);
     return result;
 }
 

@@ -12,23 +12,25 @@ const float kNusseltTiny = 1.262177448353618888e-29; // 2^-96
 float difference_of_products(float a, float b, float c, float d) {
     NUSSELT_PRECISE float cd = c * d;
     float error = two_product_error(c, d, cd);
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE float result = fma(a, b, -cd) - error;
-#else
+    NUSSELT_PRECISE float result;
+    if (kNusseltFusedFma) {
+        result = fma(a, b, -cd) - error;
+        return result;
+    }
     NUSSELT_PRECISE float ab = a * b;
-    NUSSELT_PRECISE float result = (ab - cd) + (two_product_error(a, b, ab) - error);
-#endif
+    result = (ab - cd) + (two_product_error(a, b, ab) - error);
     return result;
 }
 vec3 difference_of_products(vec3 a, vec3 b, vec3 c, vec3 d) {
     NUSSELT_PRECISE vec3 cd = c * d;
     vec3 error = two_product_error(c, d, cd);
-#if NUSSELT_FUSED_FMA
-    NUSSELT_PRECISE vec3 result = fma(a, b, -cd) - error;
-#else
+    NUSSELT_PRECISE vec3 result;
+    if (kNusseltFusedFma) {
+        result = fma(a, b, -cd) - error;
+        return result;
+    }
     NUSSELT_PRECISE vec3 ab = a * b;
-    NUSSELT_PRECISE vec3 result = (ab - cd) + (two_product_error(a, b, ab) - error);
-#endif
+    result = (ab - cd) + (two_product_error(a, b, ab) - error);
     return result;
 }
 

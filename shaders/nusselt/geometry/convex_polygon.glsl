@@ -43,11 +43,7 @@ vec3 doubled_area_normal(ConvexPolygon polygon) {
 
 /// Least sine of the angle between the plane of a polygon and the direction to a vertex for which rounding can be ignored:
 /// it magnifies rounding errors by the reciprocal. Products that are rounded together with their sum allow twice as much.
-#if NUSSELT_FUSED_FMA
-const float kNusseltConclusive = 1.0 / 256.0;
-#else
-const float kNusseltConclusive = 1.0 / 128.0;
-#endif
+float least_conclusive_sine() { return kNusseltFusedFma ? 1.0 / 256.0 : 1.0 / 128.0; }
 
 /// The vertex whose product with the normal has the smallest rounding error, none if it is the origin.
 vec3 nearest_vertex(ConvexPolygon polygon) {
@@ -105,7 +101,7 @@ float precise_plane_distance(ConvexPolygon polygon, vec3 vertex, float rounded) 
 float plane_distance(ConvexPolygon polygon) {
     vec3 nearest = nearest_vertex(polygon);
     float distance = rounded_plane_distance(polygon, nearest);
-    if (distance != 0.0 && abs(distance) < kNusseltConclusive * largest_component(nearest))
+    if (distance != 0.0 && abs(distance) < least_conclusive_sine() * largest_component(nearest))
         distance = precise_plane_distance(polygon, nearest, distance);
     return distance;
 }

@@ -22,23 +22,18 @@ FanVolumes fan_volumes(ConvexPolygon polygon) {
     self.total = 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots - 2; ++j) {
         vec3 edge = polygon.edge[j + 1];
-#if NUSSELT_FUSED_FMA
-        vec3 n = nusselt_cross(offset, edge);
-#else
-        // Rounding of the cross product is relative to the product of the lengths.
-        vec3 n = cross(offset, edge);
+        vec3 n = kNusseltFusedFma ? nusselt_cross(offset, edge) : cross(offset, edge);
+        // Rounding of the built-in cross product is relative to the product of the lengths.
         product_bound = product_bound + dot(offset, offset) * dot(edge, edge);
-#endif
         self.volume[j] = nusselt_fma(v.z, n.z, nusselt_fma(v.y, n.y, v.x * n.x));
         self.total = self.total + self.volume[j];
         normal = normal + n;
         offset = offset + edge;
     }
-#if NUSSELT_FUSED_FMA
-    product_bound = dot(normal, normal);
-#endif
+    if (kNusseltFusedFma) product_bound = dot(normal, normal);
     // Squares that leave the range of numbers are not conclusive.
-    self.conclusive = self.total * self.total > (kNusseltConclusive * kNusseltConclusive) * dot(v, v) * product_bound;
+    float sine = least_conclusive_sine();
+    self.conclusive = self.total * self.total > (sine * sine) * dot(v, v) * product_bound;
     return self;
 }
 

@@ -8,21 +8,9 @@
 #include "../core/vec.glsl"
 
 /// Kahan's algorithm where fma rounds once.
-float peters_det(vec2 a, vec2 b) {
-#if NUSSELT_FUSED_FMA
-    return det(a, b);
-#else
-    return a.x * b.y - a.y * b.x;
-#endif
-}
+float peters_det(vec2 a, vec2 b) { return kNusseltFusedFma ? det(a, b) : a.x * b.y - a.y * b.x; }
 /// \copydoc peters_det
-vec3 peters_cross(vec3 a, vec3 b) {
-#if NUSSELT_FUSED_FMA
-    return nusselt_cross(a, b);
-#else
-    return cross(a, b);
-#endif
-}
+vec3 peters_cross(vec3 a, vec3 b) { return kNusseltFusedFma ? nusselt_cross(a, b) : cross(a, b); }
 
 /// Angle of the point (x, y) with y >= 0; a negative y counts as 0. The polynomial has a relative error of 1.2e-7 and,
 /// by Estrin's scheme, short chains.

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define NUSSELT_MAX_VERTICES 5 // four, clipped twice
+#include "interface/fused_fma.h"
 #include "nusselt/ltc/polygon_shading.glsl"
 #include "parity/lobe_input.glsl"
 
