@@ -104,11 +104,10 @@ float table_window_sum(TableWindow self, uint quantity) {
 
 /// The squared coefficient of variation of the radiance of texels, by solid angle.
 float table_window_variation(TableWindow self) {
-    float weight = table_window_sum(self, kNusseltWeight);
-    if (!(weight > 0.0)) return 0.0;
-    float square = table_window_sum(self, kNusseltSquare);
-    float solid_angle = table_window_sum(self, kNusseltSolidAngle);
-    float ratio = rectified_table_mean_square(self.table) * (square / weight) * (solid_angle / weight);
+    vec3 sum; // weight, square and solid angle, in the order of their words
+    for (int k = 0; k < 3; ++k) sum[k] = table_window_sum(self, 2u * uint(k));
+    if (!(sum.x > 0.0)) return 0.0;
+    float ratio = rectified_table_mean_square(self.table) * (sum.y / sum.x) * (sum.z / sum.x);
     return nusselt_max(ratio - 1.0, 0.0);
 }
 
@@ -125,65 +124,53 @@ float table_window_strip(TableWindow self, int first, int end) {
     }
     return total;
 }
-/// The weight of columns up to the end of one. Grows with it, in spite of rounding.
-float table_window_sum_to_column(TableWindow self, int i) {
-    TexelInterval x = self.columns;
-    NUSSELT_PRECISE float total = table_axis_share(self.across, x, 0) * table_window_strip(self, x.first, x.first + 1);
-    if (i == x.first) return total;
-    total = total + table_window_strip(self, x.first + 1, min(i + 1, x.last));
-    if (i < x.last) return total;
-    total = total + table_axis_share(self.across, x, 2) * table_window_strip(self, i, i + 1);
-    return total;
-}
-/// The weight of rows of one whole column.
-float table_window_part(TableWindow self, int i, int first, int end) {
-    return rectified_table_weight(self.table, TexelRectangle(ivec2(i, first), ivec2(i + 1, end)));
-}
-/// The weight of rows up to the end of one in one whole column. Grows with it, in spite of rounding.
-float table_window_sum_to_row(TableWindow self, int i, int j) {
-    TexelInterval y = self.rows;
-    NUSSELT_PRECISE float total =
-        table_axis_share(self.along, y, 0) * table_window_part(self, i, y.first, y.first + 1);
-    if (j == y.first) return total;
-    total = total + table_window_part(self, i, y.first + 1, min(j + 1, y.last));
-    if (j < y.last) return total;
-    total = total + table_axis_share(self.along, y, 2) * table_window_part(self, i, j, j + 1);
-    return total;
-}
-
-/// Running sums over columns, or over the rows of a column.
-/// \param axis   0 for columns, 1 for rows.
+/// The weight of columns (axis 0), or of the rows of one whole column (axis 1), up to the end of one. Grows with it, in
+/// spite of rounding.
 /// \param column whose rows are summed.
 float table_window_sum_to(TableWindow self, int axis, int column, int texel) {
-    return axis == 0 ? table_window_sum_to_column(self, texel) : table_window_sum_to_row(self, column, texel);
-}
-/// The step of these sums that a texel makes.
-SumStep table_window_step(TableWindow self, int axis, int column, int texel) {
-    TexelInterval interval = table_window_interval(self, axis);
-    float before = texel > interval.first ? table_window_sum_to(self, axis, column, texel - 1) : 0.0;
-    return SumStep(before, table_window_sum_to(self, axis, column, texel),
-                   table_window_sum_to(self, axis, column, interval.last));
+    TexelInterval x = table_window_interval(self, axis);
+    NUSSELT_PRECISE float total = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        int first = texel_interval_edge(x, k);
+        int end = min(texel_interval_edge(x, k + 1), texel + 1);
+        if (first < end) {
+            float weight = 0.0;
+            if (axis == 0) {
+                weight = table_window_strip(self, first, end);
+            } else {
+                weight = rectified_table_weight(self.table,
+                                                TexelRectangle(ivec2(column, first), ivec2(column + 1, end)));
+            }
+            total = total + table_axis_share(table_window_axis(self, axis), x, k) * weight;
+        }
+    }
+    return total;
 }
 
 /// Chooses a column, or a row of a column, and an offset in it.
 float table_window_choose(TableWindow self, int axis, int column, float u, out int texel) {
     TexelInterval interval = table_window_interval(self, axis);
-    float target = below_one(u) * table_window_sum_to(self, axis, column, interval.last);
     int low = interval.first;
     int high = interval.last;
+    float total = table_window_sum_to(self, axis, column, high);
+    float target = below_one(u) * total;
+    SumStep step = SumStep(0.0, total, total); // between the sums before `low` and up to `high`
     for (int k = 0; k < kNusseltTableHalvings; ++k) {
         int middle = (low + high) >> 1;
         if (low < high) {
-            if (table_window_sum_to(self, axis, column, middle) > target) {
+            float sum = table_window_sum_to(self, axis, column, middle);
+            if (sum > target) {
                 high = middle;
+                step.after = sum;
             } else {
                 low = middle + 1;
+                step.before = sum;
             }
         }
     }
     texel = low;
     vec2 part = table_axis_part(table_window_axis(self, axis), interval, low);
-    return part.x + sum_step_rest(table_window_step(self, axis, column, low), target) * (part.y - part.x);
+    return part.x + sum_step_rest(step, target) * (part.y - part.x);
 }
 
 /// A point with a density in proportion to the weight of its texel, uniform in (alpha, beta) within it. The window has to
@@ -191,10 +178,13 @@ float table_window_choose(TableWindow self, int axis, int column, float u, out i
 WindowPoint table_window_sample(TableWindow self, vec2 u) {
     WindowPoint point;
     int column = 0;
-    int row = 0;
-    point.offset.x = table_window_choose(self, 0, 0, u.x, column);
-    point.offset.y = table_window_choose(self, 1, column, u.y, row);
-    point.texel = ivec2(column, row);
+    // A loop, because compilers inline all functions.
+    for (int axis = 0; axis < 2; ++axis) {
+        int texel;
+        point.offset[axis] = table_window_choose(self, axis, column, u[axis], texel);
+        point.texel[axis] = texel;
+        column = texel;
+    }
     return point;
 }
 
@@ -208,17 +198,23 @@ WindowPoint table_window_point_at(TableWindow self, vec2 offset) {
 
 /// The random number that leads to a position in a column, or in a row of a column.
 float table_window_number(TableWindow self, int axis, int column, int texel, float position) {
-    vec2 part = table_axis_part(table_window_axis(self, axis), table_window_interval(self, axis), texel);
+    TexelInterval interval = table_window_interval(self, axis);
+    vec2 part = table_axis_part(table_window_axis(self, axis), interval, texel);
     float size = part.y - part.x;
     float rest = size > 0.0 ? below_one((position - part.x) / size) : 0.0;
-    return sum_step_united(table_window_step(self, axis, column, texel), rest);
+    float sum[3]; // before the texel, up to its end, and in all; a loop, because compilers inline all functions
+    for (int k = 0; k < 3; ++k)
+        sum[k] = table_window_sum_to(self, axis, column, k < 2 ? texel + k - 1 : interval.last);
+    return sum_step_united(SumStep(sum[0], sum[1], sum[2]), rest);
 }
 
 /// The random numbers that lead to offsets in the window.
 vec2 table_window_invert(TableWindow self, vec2 offset) {
     WindowPoint point = table_window_point_at(self, offset);
-    return vec2(table_window_number(self, 0, 0, point.texel.x, offset.x),
-                table_window_number(self, 1, point.texel.x, point.texel.y, offset.y));
+    vec2 u;
+    for (int axis = 0; axis < 2; ++axis)
+        u[axis] = table_window_number(self, axis, point.texel.x, point.texel[axis], offset[axis]);
+    return u;
 }
 
 /// The density of table_window_sample() per square texel.
