@@ -108,9 +108,6 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
 
 void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built) {
-    if (shape.emission.profile.honeycomb != HoneycombAngles{})
-        built.warnings.add(shape.origin, "honeycombs of tubes",
-                           subject_of(shape) + ": tubes have no honeycomb; it has no effect");
     ProfiledShape profiled = profile_line(light, shape.emission.profile);
     light.radiance = radiances(shape, words.emission, std::vector{light}, profiled).front();
     light.profile = 0;

@@ -14,7 +14,7 @@ Emission without_profile(const Emission& emission);
 void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
                            PolygonPartition&& partition, BuiltShape& built);
 
-/// Adds a tube, a line or a strip whose emission has a profile. Honeycombs have no effect, with a warning.
+/// Adds a tube, a line or a strip whose emission has a luminaire or a spread. Honeycombs have no effect.
 /// \param light all but its radiance, with a normal
 void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace nusselt::scene {
 
@@ -105,7 +106,11 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    if (has_effect(shape.emission.profile)) {
+    ProfileRequest profile = shape.emission.profile;
+    if (std::exchange(profile.honeycomb, {}) != HoneycombAngles{})
+        built.warnings.add(shape.origin, "honeycombs of tubes",
+                           subject_of(shape) + ": tubes have no honeycomb; it has no effect");
+    if (has_effect(profile)) {
         light.normal = profile_axis(placed, light);
         add_profiled_line(shape, words, light, built);
         return built;
