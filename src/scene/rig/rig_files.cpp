@@ -8,6 +8,9 @@
 
 namespace nusselt::scene {
 
+RigFiles::RigFiles() = default;
+RigFiles::~RigFiles() = default;
+
 std::shared_ptr<const Luminaire> RigFiles::profile(const std::filesystem::path& path) {
     return luminaires_.read(path);
 }

@@ -15,6 +15,11 @@ namespace nusselt::scene {
 /// All functions throw std::runtime_error with the file and the reason if it cannot be used.
 class RigFiles {
 public:
+    RigFiles();
+    RigFiles(const RigFiles&) = delete;
+    RigFiles& operator=(const RigFiles&) = delete;
+    ~RigFiles();
+
     std::shared_ptr<const Luminaire> profile(const std::filesystem::path& path);
     std::shared_ptr<const EmissionTexture> image(const std::filesystem::path& path);
     /// Square maps are octahedral, those twice as wide as high in latitudes and longitudes; others are refused.
