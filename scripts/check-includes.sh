@@ -39,7 +39,7 @@ BEGIN {
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/sky", "src/scene/model src/scene/colour")
     allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour src/scene/sky")
-    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour src/scene/import/ies")
+    allow("src/scene/rig", "src/scene/input src/scene/model src/scene/colour src/scene/build src/scene/import/ies")
     below = "src/scene/input src/scene/model src/scene/colour src/scene/sky src/scene/build"
     allow("src/scene/import/ply", below)
     allow("src/scene/import/ies", below " src/scene/import")

@@ -7,10 +7,12 @@
 #include "view_files.h"
 #include "view_state.h"
 
+#include "scene/rig/rig_files.h"
 #include "viewer/lights/edit_history.h"
 
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -37,6 +39,16 @@ struct Viewer {
     void remove_selected_light();
     /// Ends an action, which undo() takes back as a whole.
     void finish_edit() { history_.note(state.edits); }
+    /// Reads a profile, an image or a map for an edit. No file that is saved may replace it.
+    /// \param read a function of scene::RigFiles, and what it throws
+    template <class Content>
+    std::shared_ptr<const Content>
+    read_light_file(std::shared_ptr<const Content> (scene::RigFiles::*read)(const std::filesystem::path&),
+                    const std::filesystem::path& path) {
+        auto content = (light_files_.*read)(path);
+        files.inputs.push_back(path);
+        return content;
+    }
     // Without an action to go back to or to repeat, a message says so.
     void undo();
     void redo();
@@ -69,6 +81,7 @@ private:
     void show_edits(const LightEdits& edits);
 
     EditHistory history_;
+    scene::RigFiles light_files_;
     ViewState last_state_; ///< that could be rendered
     FramePace pace_;
     double frame_seconds_ = 0; ///< that the frame has taken so far

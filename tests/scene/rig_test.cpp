@@ -122,6 +122,27 @@ TEST_F(RigTest, PrintedRigsChangeNothing) {
     }
 }
 
+/// The rig of a scene whose lights were given files makes the same of the scene without them.
+TEST_F(RigTest, PrintedRigsBringFilesBack) {
+    const std::filesystem::path folder =
+        std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/rigs";
+    const auto file = [&](const char* name) { return "\"" + (folder / name).string() + "\""; };
+    const auto expect_same = [&](const char* name, const std::string& entries) {
+        const Scene original = load_scene(folder / name);
+        Scene changed = original;
+        apply(entries, changed);
+        Scene again = original;
+        apply_text(to_rig_text(changed), again);
+        again.materials = changed.materials;
+        EXPECT_EQ(fingerprint(again), fingerprint(changed)) << to_rig_text(changed);
+        EXPECT_NE(fingerprint(changed), fingerprint(original));
+    };
+    expect_same("lamps.pbrt", R"({"light": 0, "image": )" + file("red-and-blue.pfm") +
+                                  R"(}, {"light": 1, "honeycomb": [30, 40]}, {"light": 2, "ies": )" +
+                                  file("lambert.ies") + R"(, "spread": 50})");
+    expect_same("sky.pbrt", R"({"light": 0, "image_scale": 3, "map": )" + file("red-and-blue.pfm") + "}");
+}
+
 TEST_F(RigTest, PrintedNumbersAreExact) {
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> exponent(-20, 20);

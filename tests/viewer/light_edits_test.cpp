@@ -4,12 +4,17 @@
 
 #include "scene/colour/colour_space.h"
 #include "scene/import/importers.h"
+#include "scene/model/fingerprint.h"
+#include "scene/rig/rig_files.h"
 #include "scene/rig/rig_json.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace nusselt::viewer {
 
@@ -107,6 +112,44 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
             EXPECT_EQ(a.z, b.z);
         }
     }
+}
+
+/// Profiles, images and maps, given by edits and by their rig.
+TEST_F(LightEditsTest, ExchangeFilesOfLightsAsTheirRigDoes) {
+    const std::filesystem::path folder =
+        std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/rigs";
+    scene::RigFiles files;
+    LightEdit measured, spread, picture, sky;
+    measured.profile.luminaire = files.profile(folder / "lambert.ies");
+    measured.profile.angle = 30;
+    spread.profile.spread = 40;
+    picture.image.image = files.image(folder / "red-and-blue.pfm");
+    picture.image.scale = scene::Float3{1, 2, 3};
+    sky.image.map = files.map(folder / "red-and-blue.pfm");
+    sky.map_turn = {0, 30, 0};
+    const base::TemporaryFolder output;
+    std::vector<std::string> seen;
+    const auto try_edit = [&](const char* name, std::size_t light, const LightEdit& edit) {
+        const scene::Scene loaded = scene::load_scene(folder / name);
+        LightEdits edits;
+        edits.set(light, edit);
+        const scene::Scene edited = edits.applied_to(loaded);
+        std::ofstream(output / "lights.json") << edits.rig_text(loaded);
+        scene::Scene by_rig = loaded;
+        apply_rig(scene::read_rig(output / "lights.json"), by_rig);
+        EXPECT_EQ(fingerprint(by_rig), fingerprint(edited)) << edits.rig_text(loaded);
+        EXPECT_NE(fingerprint(edited), fingerprint(loaded));
+        seen.push_back(fingerprint(edited));
+    };
+    try_edit("lamps.pbrt", 0, measured);
+    try_edit("lamps.pbrt", 2, measured);
+    try_edit("lamps.pbrt", 1, spread);
+    try_edit("lamps.pbrt", 0, picture);
+    try_edit("sky.pbrt", 0, sky);
+    sky.map_turn = {0, 40, 0};
+    try_edit("sky.pbrt", 0, sky);
+    std::sort(seen.begin(), seen.end());
+    EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end());
 }
 
 TEST_F(LightEditsTest, TurnLights) {

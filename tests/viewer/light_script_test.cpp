@@ -55,6 +55,34 @@ TEST_F(LightScriptTest, ChangesLightsInAllWays) {
     for (const float value : viewer.session.image(Side::left).pixels) EXPECT_EQ(value, 0);
 }
 
+TEST_F(LightScriptTest, ExchangesFilesAndUndoesIt) {
+    Viewer viewer = make_viewer();
+    const std::string folder =
+        (std::filesystem::path(nusselt_test::kSourceFolder) / "tests/scene/rigs/").string();
+    run("light 0\nlight-image " + folder + "red-and-blue.pfm\n", viewer);
+    EXPECT_EQ(viewer.message, "");
+    ASSERT_NE(viewer.state.edits.get(0).image.image, nullptr);
+    EXPECT_EQ(viewer.files.inputs.back(), folder + "red-and-blue.pfm");
+    // Green is gone.
+    const image::Image image = viewer.session.image(Side::left);
+    double red = 0, green = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+        red += double{image.pixels[i]};
+        green += double{image.pixels[i + 1]};
+    }
+    EXPECT_GT(red, 0);
+    EXPECT_EQ(green, 0);
+    run("undo\n", viewer);
+    EXPECT_EQ(viewer.state.edits.get(0).image.image, nullptr);
+    run("redo\n", viewer);
+    EXPECT_NE(viewer.state.edits.get(0).image.image, nullptr);
+    EXPECT_NE(error_of("light-profile " + folder + "nowhere.ies\n", viewer).find("nowhere.ies"),
+              std::string::npos);
+    EXPECT_NE(error_of("light-map " + folder + "wide.pfm\n", viewer).find("found 3 x 1"), std::string::npos);
+    EXPECT_NE(error_of("light-spread 200\n", viewer).find("must be a number from 0.01 to 180"),
+              std::string::npos);
+}
+
 TEST_F(LightScriptTest, UndoesAndRepeats) {
     Viewer viewer = make_viewer();
     run("light 0\nlight-size 2\nlight-brightness 3\nlight-add panel\nundo\nundo\n", viewer);

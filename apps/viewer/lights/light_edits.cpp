@@ -75,6 +75,10 @@ scene::LightChanges changes_of(const LightEdit& edit, const scene::EmissionQuant
     if (edit.size != 1) changes.scale = Double3{edit.size, edit.size, edit.size};
     if (angle_of(edit.turn) > 0) changes.rotation = {normalized(edit.turn), angle_of(edit.turn)};
     changes.move = edit.move;
+    if (angle_of(edit.map_turn) > 0)
+        changes.map_rotation = {normalized(edit.map_turn), angle_of(edit.map_turn)};
+    changes.image = edit.image;
+    changes.profile = edit.profile;
     if (const auto* const emission = std::get_if<scene::Float3>(&edit.colour))
         changes.emission = {quantity, *emission};
     if (const auto* const temperature = std::get_if<Temperature>(&edit.colour))
@@ -91,15 +95,31 @@ scene::LightChanges changes_of(const LightEdit& edit, const scene::EmissionQuant
 
 nlohmann::ordered_json triple(const Double3& v) { return {v.x, v.y, v.z}; }
 
+nlohmann::ordered_json rotation_of(const scene::Rotation& rotation) {
+    return {{"axis", triple(rotation.axis)}, {"degrees", rotation.degrees}};
+}
+
+void write_files(const scene::LightChanges& changes, nlohmann::ordered_json& entry) {
+    if (changes.map_rotation) entry["rotate_map"] = rotation_of(*changes.map_rotation);
+    if (changes.image.image != nullptr) entry["image"] = changes.image.image->path;
+    if (changes.image.map != nullptr) entry["map"] = changes.image.map->path;
+    if (changes.image.scale) entry["image_scale"] = triple(to_double(*changes.image.scale));
+    const scene::GivenProfile& profile = changes.profile;
+    if (profile.luminaire != nullptr) entry["ies"] = profile.luminaire->path;
+    if (profile.angle) entry["ies_degrees"] = *profile.angle;
+    if (profile.spread) entry["spread"] = *profile.spread;
+    if (profile.honeycomb) entry["honeycomb"] = {profile.honeycomb->along, profile.honeycomb->across};
+}
+
 /// The fields of changes_of() in a rig.
 void write_changes(const scene::LightChanges& changes, nlohmann::ordered_json& entry) {
     if (changes.shape)
         for (const scene::LightList& list : std::as_const(*changes.shape))
             if (list.size() > 0) entry.update(nlohmann::ordered_json::parse("{" + list.rig_field(0) + "}"));
     if (changes.scale) entry["scale"] = changes.scale->x;
-    if (changes.rotation)
-        entry["rotate"] = {{"axis", triple(changes.rotation->axis)}, {"degrees", changes.rotation->degrees}};
+    if (changes.rotation) entry["rotate"] = rotation_of(*changes.rotation);
     entry["move"] = triple(*changes.move);
+    write_files(changes, entry);
     if (changes.emission)
         entry[std::string(changes.emission->quantity.name)] = triple(to_double(changes.emission->value));
     if (changes.kelvin) entry["kelvin"] = *changes.kelvin;

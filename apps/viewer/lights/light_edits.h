@@ -54,6 +54,10 @@ struct LightEdit {
     /// from the tip of the axis.
     scene::Double3 turn = {0, 0, 0};
     LightColour colour = {};
+    scene::GivenProfile profile = {}; ///< another profile, spread, honeycomb or angle of the profile
+    scene::GivenImage image = {};     ///< another image, or another map of an environment
+    scene::Double3 map_turn = {0, 0,
+                               0}; ///< a rotation of the map, which leaves a portal in its place, as `turn`
     bool is_removed = false;
     std::optional<NewLight> added = {}; ///< the light, if it is none of the scene
 

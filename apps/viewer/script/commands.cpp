@@ -49,6 +49,18 @@ scene::Double3 to_vector(const Arguments& words) {
     return {to_coordinate(words[0]), to_coordinate(words[1]), to_coordinate(words[2])};
 }
 
+/// An axis and an angle, as LightEdit::turn.
+scene::Double3 to_turn(const Arguments& words) {
+    const scene::Double3 axis = to_vector(words);
+    const double degrees = to_number(words[3], -360.0, 360.0);
+    if (length(axis) == 0) throw std::invalid_argument("the axis must not be zero");
+    return degrees * normalized(axis);
+}
+
+double to_spread(const std::string& word) {
+    return to_number(word, scene::kNarrowestSpread, scene::kWidestSpread);
+}
+
 FilmPosition to_position(const Arguments& words) {
     return {to_coordinate(words[0]), to_coordinate(words[1])};
 }
@@ -122,10 +134,8 @@ std::map<std::string, Command> light_commands() {
         {"light-turn",
          {4,
           [](Viewer& viewer, Playback&, const Arguments& words) {
-              const scene::Double3 axis = to_vector(words);
-              const double degrees = to_number(words[3], -360.0, 360.0);
-              if (length(axis) == 0) throw std::invalid_argument("the axis must not be zero");
-              edit_light(viewer, [&](LightEdit& edit) { edit.turn = degrees * normalized(axis); });
+              const scene::Double3 turn = to_turn(words);
+              edit_light(viewer, [&](LightEdit& edit) { edit.turn = turn; });
           }}},
         {"light-size",
          {1,
@@ -151,6 +161,55 @@ std::map<std::string, Command> light_commands() {
               edit_light(viewer, [&](LightEdit& edit) {
                   edit.colour = scene::Float3{channel(0), channel(1), channel(2)};
               });
+          }}},
+        {"light-profile",
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer, [&](LightEdit& edit) {
+                  edit.profile.luminaire = viewer.read_light_file(&scene::RigFiles::profile, words[0]);
+              });
+          }}},
+        {"light-profile-turn",
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer,
+                         [&](LightEdit& edit) { edit.profile.angle = to_number(words[0], -360.0, 360.0); });
+          }}},
+        {"light-spread",
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer, [&](LightEdit& edit) {
+                  edit.profile.spread = to_spread(words[0]);
+                  edit.profile.honeycomb.reset();
+              });
+          }}},
+        {"light-honeycomb",
+         {2,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer, [&](LightEdit& edit) {
+                  edit.profile.honeycomb = {to_spread(words[0]), to_spread(words[1])};
+                  edit.profile.spread.reset();
+              });
+          }}},
+        {"light-image",
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer, [&](LightEdit& edit) {
+                  edit.image.image = viewer.read_light_file(&scene::RigFiles::image, words[0]);
+              });
+          }}},
+        {"light-map",
+         {1,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              edit_light(viewer, [&](LightEdit& edit) {
+                  edit.image.map = viewer.read_light_file(&scene::RigFiles::map, words[0]);
+              });
+          }}},
+        {"light-map-turn",
+         {4,
+          [](Viewer& viewer, Playback&, const Arguments& words) {
+              const scene::Double3 turn = to_turn(words);
+              edit_light(viewer, [&](LightEdit& edit) { edit.map_turn = turn; });
           }}},
         {"light-switch",
          {1,

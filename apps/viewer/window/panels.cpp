@@ -265,6 +265,7 @@ void Panels::draw_selected_light(Viewer& viewer) {
         edit_colour(state.edits.emission_before(viewer.session.loaded(), light), edit_.colour);
     ImGui::EndGroup();
     note(has_new_colour);
+    is_final |= draw_light_files(viewer, note);
     if (has_new_colour && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) is_final = true;
     if (button("reset", "Make the light what it was when it was loaded or added.")) {
         edit_ = LightEdit{.added = now.added};
@@ -284,6 +285,42 @@ void Panels::draw_selected_light(Viewer& viewer) {
     }
     if (is_final) viewer.finish_edit();
     if (is_final || !ImGui::IsAnyItemActive()) edited_light_.reset();
+}
+
+bool Panels::draw_light_files(Viewer& viewer, const std::function<void(bool)>& note) {
+    bool is_read = false;
+    ImGui::InputText("light file", &light_file_);
+    explain("An IES profile, an image or the map of an environment. The buttons below give it to the light.");
+    const auto give = [&](const char* label, const char* explanation, const auto& read, auto& target) {
+        if (!button(label, explanation)) return;
+        try {
+            target = viewer.read_light_file(read, light_file_);
+            is_read = true;
+        } catch (const std::exception& error) {
+            viewer.message = error.what();
+        }
+    };
+    give("profile", "Let the light shine as the luminaire of this IES file.", &scene::RigFiles::profile,
+         edit_.profile.luminaire);
+    ImGui::SameLine();
+    give("image", "Let the light emit this image. The power stays.", &scene::RigFiles::image,
+         edit_.image.image);
+    ImGui::SameLine();
+    give("map", "Give the environment this map. The power stays.", &scene::RigFiles::map, edit_.image.map);
+    double angle = edit_.profile.angle.value_or(0);
+    const bool is_turned = slider("profile angle", angle, -180, 180, "%.0f deg",
+                                  "How far the profile is turned about its axis.");
+    if (is_turned) edit_.profile.angle = angle;
+    note(is_turned);
+    double spread = edit_.profile.spread.value_or(scene::kWidestSpread);
+    const bool is_spread =
+        slider("spread", spread, 1, scene::kWidestSpread, "%.0f deg",
+               "The angle of the cone that contains all light of a point. The power stays.");
+    if (is_spread) edit_.profile.spread = spread;
+    note(is_spread);
+    note(drag("turn map", edit_.map_turn, 0.5, "%.1f deg",
+              "A rotation of the map of an environment, as `turn`. Its portal stays in its place."));
+    return is_read;
 }
 
 void Panels::draw_files(Viewer& viewer) {

@@ -60,16 +60,17 @@ struct LobeLines {
 /// \tparam T       float, double or long double. One light and shading point at a time: cells are lanes.
 /// \tparam n       as in LineProfile.
 /// \tparam Measure ProjectedLines or LobeLines.
+/// \tparam Along   LineProfile, or LineNodes for radiance that depends on the direction (emission/line_nodes.h).
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr], as that of
 /// LineProjectedSolidAngle.
 /// Space: shading space; the shading point is the origin, the normal +z. For a lobe, wo is in the xz half-plane.
 /// Edge cases: nothing of the light above the horizon or in the lobe, black light, no length, or origin on the infinite line
 /// up to rounding: pdf = 0, measure 0. Black parts are never sampled.
-template <class T, int n = 64, class Measure = ProjectedLines<T>>
+template <class T, int n = 64, class Measure = ProjectedLines<T>, class Along = LineProfile<T, n>>
 class TexturedLine {
 public:
-    using Profile = LineProfile<T, n>;
+    using Profile = Along;
 
     /// \param light   in shading space [m].
     /// \param profile has to live as long as this.

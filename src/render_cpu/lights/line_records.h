@@ -2,10 +2,20 @@
 /// Linear lights and tubes in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
+#include "render_cpu/lights/profile_record.h"
 
 #include <memory>
 
 namespace nusselt::render_cpu {
+
+/// Cells of the table of a spread.
+inline constexpr int kTubeSpreadCells = 64;
+
+/// How the radiance of a tube or a line depends on the direction.
+struct LineProfileRecord : ProfileRecord {
+    /// What the spread lets pass of the light of a lateral surface, scene::TubeSpread.
+    float spread[kTubeSpreadCells + 1];
+};
 
 /// A tube, with its axis in the form of LineSegment<float>.
 struct LineRecord {
@@ -19,6 +29,8 @@ struct LineRecord {
     scene::Float3 radiance_times_radius;
     scene::Float3 inverse_mean; ///< of the radiance; 0 for channels that are black everywhere
     const void* profile;        ///< a LineProfile<float, scene::kMaxLineTexels>, null for uniform radiance
+    const LineProfileRecord*
+        directions; ///< null for the same radiance in all directions; not together with `profile`
 };
 
 /// Makes an array of LineRecord, see LightKernel.

@@ -36,7 +36,7 @@ struct SideFrame {
 
     /// Along the half-plane of 0 degrees if there is one.
     static SideFrame of_profile(const Double3& normal) {
-        return {std::fabs(normal.x) < 0.9 ? Double3{1, 0, 0} : Double3{0, 1, 0}, normal};
+        return {scene::honeycomb_direction(normal), normal};
     }
     Double3 to_profile(const Vec3<float>& w) const {
         return double{w.x} * t + double{w.y} * b + double{w.z} * n;
@@ -92,6 +92,13 @@ private:
 
 /// Where a table has to be: around their axis, luminaires are dark beyond their last angle.
 RectifiedDomain<float> domain_of(const scene::EmissionProfile& profile, const Double3& normal) {
+    if (const auto holes = scene::honeycomb_slopes(profile)) {
+        const auto bounded = [](double slope) {
+            return static_cast<float>(std::clamp(slope, 1e-6, double{kLargestSlope<float>}));
+        };
+        const Vec2<float> high{bounded((*holes)[0]), bounded((*holes)[1])};
+        return {{-high.x, -high.y}, high};
+    }
     double slope = scene::spread_slope(profile).value_or(double{kLargestSlope<float>});
     if (profile.luminaire != nullptr && normal.z > 1 - 1e-6) {
         const double end = Bands(profile.luminaire->profile.table()).end();
@@ -122,9 +129,10 @@ public:
             const double vertical = std::atan2(std::hypot(direction.x, direction.y), direction.z);
             const double peak = bands_->peak(vertical - reach_, vertical + reach_);
             luminance = luminance_of_profile(profile_, direction) +
-                        kLittle * peak / visible_area(profile_, direction);
+                        kLittle * peak / effective_area(profile_, direction);
         }
-        const auto value = static_cast<float>(factor_ * luminance * passed_share(profile_, double{w.z}));
+        const auto value =
+            static_cast<float>(factor_ * luminance * passed_share(profile_, frame_.n, frame_.to_profile(w)));
         return {value, value, value};
     }
 
@@ -171,8 +179,9 @@ PolygonProfiles::~PolygonProfiles() = default;
 PolygonProfiles::Side PolygonProfiles::side_of(const scene::ProfiledEmission& emission, const Double3& normal,
                                                const Double3* edge) {
     const scene::EmissionProfile& profile = *emission.profile;
-    const SideFrame frame = edge != nullptr && tables_.size() < kMostTables ? SideFrame(*edge, normal)
-                                                                            : SideFrame::of_profile(normal);
+    // Windows of honeycombs lie along their holes.
+    const bool is_along_edge = edge != nullptr && tables_.size() < kMostTables && !honeycomb_slopes(profile);
+    const SideFrame frame = is_along_edge ? SideFrame(*edge, normal) : SideFrame::of_profile(normal);
     std::vector<long> shape;
     const auto add = [&](double number) { shape.push_back(std::lround(number / kSameNumber)); };
     const auto add_direction = [&](const Double3& v) { add(v.x), add(v.y), add(v.z); };
@@ -184,6 +193,8 @@ PolygonProfiles::Side PolygonProfiles::side_of(const scene::ProfiledEmission& em
             add(face.area / profile.faces[0].area);
         }
     }
+    add(profile.honeycomb.along);
+    add(profile.honeycomb.across);
     std::unique_ptr<Table>& table = tables_[{profile.luminaire.get(), profile.spread, std::move(shape)}];
     if (table == nullptr) table = std::make_unique<Table>(emission, frame);
     return {frame.t, frame.b, frame.n, &table->table};
@@ -195,26 +206,7 @@ std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polygo
     const scene::EmissionProfile& profile = *emission.profile;
     const scene::ProfilePlacement placement = scene::place_profile(light, emission);
 
-    PolygonProfile record{};
-    record.x_axis = to_float(placement.x_axis);
-    record.y_axis = to_float(placement.y_axis);
-    record.z_axis = to_float(placement.z_axis);
-    record.normal = to_float(placement.normal);
-    if (const std::optional<double> slope = scene::spread_slope(profile))
-        record.inverse_slope = static_cast<float>(1 / *slope);
-    record.inverse_mean = emission.mean > 0 ? 1 / emission.mean : 0.0f;
-    if (profile.luminaire != nullptr) {
-        // With areas relative to the least one and intensities over this, all numbers are of the order of the luminance.
-        const double unit = least_visible_area(profile);
-        record.luminaire = luminaires_.add(profile.luminaire, unit);
-        std::vector<LuminousFaceRecord>& faces = faces_.emplace_back();
-        for (const scene::LuminousFace& face : profile.faces)
-            faces.push_back({to_float(face.normal), static_cast<float>(face.area / unit)});
-        record.faces = faces.data();
-        record.face_count = static_cast<std::int32_t>(faces.size());
-        record.least_area = 1;
-    }
-
+    PolygonProfile record{records_of_profiles_.make(emission, placement), {}, {}, {}};
     std::vector<Vec3<float>> corners;
     for (const scene::Float3& p : light.vertices) corners.push_back(scene::to_vec(p));
     const auto to_profile = [&](const Double3& v) {
@@ -224,6 +216,13 @@ std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polygo
         return scene::to_vec(
             to_float(v.x * placement.x_axis + v.y * placement.y_axis + v.z * placement.z_axis));
     };
+    if (const auto holes = scene::honeycomb_slopes(profile)) {
+        const Double3 normal = to_profile(placement.normal);
+        const Double3 direction = scene::honeycomb_direction(normal);
+        record.hole_axis =
+            scene::to_float3(to_world(normalized(direction - dot(direction, normal) * normal)));
+        record.inverse_holes = {static_cast<float>(1 / (*holes)[0]), static_cast<float>(1 / (*holes)[1])};
+    }
     const Double3 edge = to_profile(to_double(light.vertices[1]) - to_double(light.vertices[0]));
     const Double3* const aligned = is_rectangle(light) ? &edge : nullptr;
     for (int side = 0; side < (light.two_sided ? 2 : 1); ++side) {

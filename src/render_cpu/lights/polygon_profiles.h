@@ -1,8 +1,8 @@
 #pragma once
 /// The profiles of polygonal lights, prepared for kernels.
 
-#include "render_cpu/lights/luminaire_tables.h"
 #include "render_cpu/lights/polygon_records.h"
+#include "render_cpu/lights/profile_records.h"
 #include "scene/model/scene.h"
 
 #include <cstdint>
@@ -29,8 +29,8 @@ private:
     struct Light;
     struct Side;
     struct Table;
-    /// Luminaire, spread, the rounded axes of the side, and the normals and shares of the area of all faces: what a table
-    /// follows from. Scenes have thousands of luminaires of one kind.
+    /// Luminaire, spread, the rounded axes of the side, the normals and shares of the area of all faces, and the honeycomb: what
+    /// a table follows from. Scenes have thousands of luminaires of one kind.
     using TableKey = std::tuple<const scene::Luminaire*, double, std::vector<long>>;
 
     /// \param normal of the side, in the frame of the profile
@@ -38,8 +38,7 @@ private:
     Side side_of(const scene::ProfiledEmission& emission, const scene::Double3& normal,
                  const scene::Double3* edge);
 
-    LuminaireTables luminaires_;
-    std::vector<std::vector<LuminousFaceRecord>> faces_;
+    ProfileRecords records_of_profiles_;
     std::map<TableKey, std::unique_ptr<Table>> tables_;
     std::vector<std::unique_ptr<Light>> lights_;
     std::vector<PolygonProfile> records_;

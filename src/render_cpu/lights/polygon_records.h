@@ -2,7 +2,7 @@
 /// Polygonal lights in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
-#include "render_cpu/lights/luminaire_table.h"
+#include "render_cpu/lights/profile_record.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,22 +22,10 @@ struct PolygonTexture {
     const void* cells;          ///< a TexturedLight<float, kTextureCells>
 };
 
-/// A face of the shape that shines as a luminaire, in the frame of its profile.
-struct LuminousFaceRecord {
-    scene::Float3 normal;
-    float area;
-};
-
 /// How the radiance of a polygon depends on the direction.
-struct PolygonProfile {
-    scene::Float3 x_axis, y_axis, z_axis; ///< of the profile, in world space
-    scene::Float3 normal;                 ///< of the polygon, in world space
-    float inverse_slope;                  ///< of the spread, 0 for none
-    LuminaireTable luminaire;             ///< without angles for none
-    const LuminousFaceRecord* faces;
-    std::int32_t face_count;
-    float least_area;   ///< least visible area of the faces
-    float inverse_mean; ///< 1 / scene::ProfiledEmission::mean; 0 for dark lights
+struct PolygonProfile : ProfileRecord {
+    scene::Float3 hole_axis;     ///< along which the holes of the honeycomb lie, in world space
+    scene::Float2 inverse_holes; ///< over the slopes of the honeycomb along and across it, 0 for none
     const void*
         side[2]; ///< WindowedLight<float> of the front and, if it emits, of the back; of a mean radiance of 1
 };

@@ -31,6 +31,10 @@ bool write_lines(const scene::Scene& /*scene*/, const scene::LightList& list, Li
     if (std::any_of(lines->lights.begin(), lines->lights.end(),
                     [](const auto& light) { return light.texture >= 0; }))
         throw std::runtime_error("lights that emit an image are not supported on GPUs; use --backend cpu");
+    if (std::any_of(lines->lights.begin(), lines->lights.end(),
+                    [](const auto& light) { return light.profile >= 0; }))
+        throw std::runtime_error(
+            "tubes and lines with a profile or a spread are not supported on GPUs; use --backend cpu");
     std::vector<interface::LineLightRecord> lights;
     for (const scene::LineLight& light : lines->lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));

@@ -49,9 +49,14 @@ void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
             renumber_textures(shape.lights.of<PolygonLight>());
             renumber_textures(shape.lights.of<LineLight>());
         }
-        if (first_profile > 0 && !shape.emission_profiles.empty())
-            for (PolygonLight& light : shape.lights.of<PolygonLight>())
-                if (light.profile >= 0) light.profile += first_profile;
+        if (first_profile > 0 && !shape.emission_profiles.empty()) {
+            const auto renumber_profiles = [&](auto& list) {
+                for (auto& light : list)
+                    if (light.profile >= 0) light.profile += first_profile;
+            };
+            renumber_profiles(shape.lights.of<PolygonLight>());
+            renumber_profiles(shape.lights.of<LineLight>());
+        }
         if (first_emitter > 0)
             for (LightList& list : shape.lights)
                 for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) += first_emitter;

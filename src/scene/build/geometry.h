@@ -62,8 +62,9 @@ struct Tube {
     Float3 end = {0, 0, 0};
     double radius = 0; ///< positive; of strips, half the width
     TubeModel model = TubeModel::solid;
-    Float3 normal = {0, 0, 0}; ///< of strips, not along the line
-    Location radius_origin;    ///< where the radius or width is given
+    Float3 normal = {0, 0,
+                     0}; ///< of strips, not along the line; of tubes where the axis of a profile points, or 0
+    Location radius_origin; ///< where the radius or width is given
 };
 
 using Geometry = std::variant<Mesh, MeshFile, BilinearPatches, Sphere, Disk, Cylinder, Tube>;

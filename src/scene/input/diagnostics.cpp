@@ -11,7 +11,8 @@ constexpr std::size_t kMaxWarnings = 200;
 
 std::string located_line(const Location& location, std::string_view message) {
     constexpr std::size_t kMaxBytes = 1000;
-    return message_line(to_string(location) + ": " + shortened(message, kMaxBytes));
+    const std::string place = location.file != nullptr ? to_string(location) + ": " : "";
+    return message_line(place + std::string(shortened(message, kMaxBytes)));
 }
 
 } // namespace

@@ -20,7 +20,7 @@ struct SourceFile {
 };
 
 struct Location {
-    const SourceFile* file = nullptr;
+    const SourceFile* file = nullptr; ///< null for what no file says: messages then name no place
     int line = 0; ///< counts from 1; 0 for the file as a whole, where a format has no lines
 };
 

@@ -51,7 +51,7 @@ public:
     }
 
     void add(const Texture& texture) {
-        const auto& [name, width, height, texels, channels, wrap, filter] = texture;
+        const auto& [name, width, height, texels, channels, wrap, filter, path] = texture;
         add_all(width, height, texels, channels, wrap, filter);
     }
 
@@ -78,8 +78,8 @@ public:
     }
 
     void add(const TexturedEmission& emission) {
-        const auto& [texture, coordinates, mean] = emission;
-        const auto& [name, width, height, texels] = *texture;
+        const auto& [texture, coordinates, mean, part_begin, part_end] = emission;
+        const auto& [name, width, height, texels, path] = *texture;
         add_all(width, height, texels, mean);
         for (const Float2& at : coordinates) add(at);
     }
@@ -95,13 +95,14 @@ public:
 
     void add(const ProfiledEmission& emission) {
         const auto& [profile, x_axis, z_axis, mean] = emission;
-        const auto& [luminaire, spread, faces, lost] = *profile;
-        add_all(luminaire, spread, x_axis, z_axis, mean, faces.size());
+        const auto& [luminaire, spread, honeycomb, faces, round, lost] = *profile;
+        add_all(luminaire, spread, honeycomb.along, honeycomb.across, x_axis, z_axis, mean, round.axis,
+                round.area, faces.size());
         for (const LuminousFace& face : faces) add_all(face.normal, face.area);
     }
 
     void add(const std::shared_ptr<const EnvironmentMapTexels>& map) {
-        const auto& [name, size, texels, mean] = *map;
+        const auto& [name, size, texels, mean, path] = *map;
         add_all(size, texels, mean);
     }
 

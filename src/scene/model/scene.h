@@ -38,6 +38,7 @@ struct Texture {
     int channels = 3;               ///< 3 for RGB, 1 for grey
     TextureWrap wrap = TextureWrap::repeat;
     TextureFilter filter = TextureFilter::bilinear;
+    std::string path = {}; ///< of its file, so that two mentions of one file are the same; empty for others
 };
 
 /// Where a surface looks up a texture: at scale * uv + offset.
@@ -172,7 +173,7 @@ struct Scene {
     std::vector<Emitter> emitters;
     Lights lights = no_lights_of_each_kind();        ///< lights of a kind are in the order of their emitters
     std::vector<TexturedEmission> emission_textures; ///< of polygons, tubes and lines
-    std::vector<ProfiledEmission> emission_profiles; ///< of polygonal lights
+    std::vector<ProfiledEmission> emission_profiles; ///< of polygons, tubes and lines
     std::vector<std::shared_ptr<const Luminaire>> luminaires; ///< of point lights
     std::vector<std::shared_ptr<const EnvironmentMapTexels>> environment_maps;
     Camera camera;

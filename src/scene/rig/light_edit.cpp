@@ -124,8 +124,8 @@ const EmissionQuantity* quantity_of(const Lights& parts) {
     return nullptr;
 }
 
-void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {
-    if (have_same_shape(light.parts, shape)) return;
+bool LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material) {
+    if (have_same_shape(light.parts, shape)) return false;
     const bool stays_invisible = is_invisible(light);
     if (!is_surface(light)) light.material = material;
     unused_triangles_.insert(unused_triangles_.end(), light.triangles.begin(), light.triangles.end());
@@ -134,6 +134,7 @@ void LightEditor::replace_shape(EditableLight& light, const Lights& shape, std::
     light.parts = shape;
     set_emission(emission, light.parts);
     light.has_new_surface = is_surface(light) && !stays_invisible;
+    return true;
 }
 
 void LightEditor::transform(EditableLight& light, const Transform& transform) {

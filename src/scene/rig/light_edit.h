@@ -46,7 +46,8 @@ public:
     /// Gives a light another shape. It keeps its emission and its sides; a light without a shape becomes white and
     /// one-sided. A light whose surface is invisible (alpha 0) stays invisible.
     /// \param material  of its surface if it was no surface before
-    void replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material);
+    /// \returns whether it had another shape before
+    bool replace_shape(EditableLight& light, const Lights& shape, std::uint32_t material);
     /// Moves a light and its surface. The transform is affine; radii grow with the cube root of its determinant.
     void transform(EditableLight& light, const Transform& transform);
     /// Puts the lights back. Lights that are black or disabled are left out, but keep their surfaces. Surfaces that were

@@ -10,12 +10,8 @@
 
 namespace nusselt::scene {
 
-/// What a light has of a profile; those of its parts are alike.
-struct LightProfile {
-    std::shared_ptr<const Luminaire> luminaire; ///< null for none
-    double spread = kWidestSpread;              ///< [degrees]
-    double angle = 0;                           ///< ProfileRequest::angle from the first edge of polygons
-};
+/// What a light has of a profile; those of its parts are alike. The angle is that from the first edge of polygons, or from the line.
+using LightProfile = ProfileRequest;
 LightProfile profile_of(const Scene& scene, const EditableLight& light);
 
 /// Gives a light a profile. With a luminaire, it gets the intensities that were measured, in its old colour. Nothing changes
@@ -28,5 +24,19 @@ std::optional<ProfileDefect> change_profile(const GivenProfile& profile, Scene& 
 
 /// Fits the profile of polygons again whose sides have changed. They keep their radiance.
 void refit_profile(Scene& scene, EditableLight& light);
+
+/// A profile that outlives the shape of its light.
+class KeptProfile {
+public:
+    KeptProfile(const Scene& scene, const EditableLight& light);
+    /// Gives the profile to the new shape, as far as lights of its kind have one. With a luminaire, the light has the intensities
+    /// that were measured, times the factor and in the colour that it had before.
+    void give_to(Scene& scene, EditableLight& light) const;
+
+private:
+    LightProfile profile_;
+    Double3 axis_ = {0, -1, 0};  ///< of the profile, in world space
+    Double3 factor_ = {1, 1, 1}; ///< of what was measured, per channel
+};
 
 } // namespace nusselt::scene

@@ -5,6 +5,7 @@
 #include "scene/model/polygon.h"
 #include "scene/model/vector_math.h"
 #include "scene/rig/light_edit.h"
+#include "scene/rig/light_image.h"
 #include "scene/rig/light_profile.h"
 
 #include <algorithm>
@@ -251,8 +252,13 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     if (!is_valid(light))
         fail(entry.where,
              "light " + in_quotes(light.name) + " would lie beyond 1e15 m or be too small to have an area");
-    if (const auto defect = change_profile(changes.profile, scene_, light))
-        fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
+    const auto check = [&](const std::optional<ProfileDefect>& defect) {
+        if (defect)
+            fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
+    };
+    if (changes.map_rotation) check(turn_map(*changes.map_rotation, light));
+    check(change_image(changes.image, scene_, light));
+    check(change_profile(changes.profile, scene_, light));
     change_emission(entry, light);
     if (changes.two_sided) {
         const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
@@ -283,7 +289,10 @@ void RigApplication::replace_shape(const RigLight& entry, EditableLight& light, 
         fail(entry.where, "light " + in_quotes(light.name) + " had " + with_article(before->name) +
                               "; give the " + std::string(quantity.name) + " or the power of its new shape");
     const bool has_material = is_surface(light) || std::holds_alternative<LightAddition>(entry.lights);
-    editor_.replace_shape(light, shape, has_material ? light.material : black_material());
+    // A light that has this shape already keeps its profile with it.
+    const KeptProfile profile(scene_, light);
+    if (editor_.replace_shape(light, shape, has_material ? light.material : black_material()))
+        profile.give_to(scene_, light);
 }
 
 void RigApplication::rename(const RigLight& entry, EditableLight& light) {

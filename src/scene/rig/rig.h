@@ -3,6 +3,7 @@
 /// files.
 
 #include "scene/model/limits.h"
+#include "scene/model/profiles/emission_profile.h"
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
 
@@ -39,17 +40,29 @@ struct GivenProfile {
     std::shared_ptr<const Luminaire> luminaire = {}; ///< null: as before
     std::optional<double> spread = {};               ///< [degrees]
     std::optional<double> angle = {};                ///< ProfileRequest::angle
-    bool is_empty() const { return luminaire == nullptr && !spread && !angle; }
+    std::optional<HoneycombAngles> honeycomb = {};
+    bool is_empty() const { return luminaire == nullptr && !spread && !angle && !honeycomb; }
+    bool operator==(const GivenProfile&) const = default;
+};
+
+/// What a light shows.
+struct GivenImage {
+    std::shared_ptr<const EmissionTexture> image = {};    ///< null: as before
+    std::shared_ptr<const EnvironmentMapTexels> map = {}; ///< null: as before
+    std::optional<Float3> scale = {};                     ///< the radiance of a texel of 1 [W/(sr m^2)]
+    bool operator==(const GivenImage&) const = default;
 };
 
 /// Changes of a light, in the order of their application.
 struct LightChanges {
     std::optional<std::string> name;
-    std::optional<Lights> shape;      ///< one light, whose emission is ignored
-    std::optional<Double3> scale;     ///< along the axes of the world, about the centroid
-    std::optional<Rotation> rotation; ///< about the centroid
-    std::optional<Float3> center;     ///< where the centroid goes
-    std::optional<Double3> move;      ///< [m]
+    std::optional<Lights> shape;          ///< one light, whose emission is ignored
+    std::optional<Double3> scale;         ///< along the axes of the world, about the centroid
+    std::optional<Rotation> rotation;     ///< about the centroid
+    std::optional<Float3> center;         ///< where the centroid goes
+    std::optional<Double3> move;          ///< [m]
+    std::optional<Rotation> map_rotation; ///< of the map of an environment
+    GivenImage image;
     GivenProfile profile;
     std::optional<GivenEmission> emission;
     std::optional<double> kelvin; ///< colour of this temperature; the luminance stays

@@ -1,15 +1,16 @@
 #include "scene/rig/rig_json.h"
 
-#include "scene/import/ies/luminaires.h"
 #include "scene/input/json_node.h"
 #include "scene/input/message.h"
 #include "scene/model/polygon.h"
 #include "scene/model/profiles/emission_profile.h"
 #include "scene/rig/light_edit.h"
+#include "scene/rig/rig_files.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -102,9 +103,18 @@ LineLight read_line(const JsonNode& node) {
     return line;
 }
 
+/// A unit vector perpendicular to a line.
+Float3 read_normal(const JsonNode& node, const LineLight& line) {
+    const Double3 axis = normalized(to_double(line.end) - to_double(line.start));
+    const Double3 across = cross(axis, read_direction(node));
+    if (!(length(across) > 0)) node.fail("must not be parallel to the line");
+    return to_float(normalized(cross(across, axis)));
+}
+
 Lights read_tube(const JsonNode& node) {
-    node.check_fields({"begin", "end", "radius", "finite", "caps"});
+    node.check_fields({"begin", "end", "radius", "finite", "caps", "normal"});
     LineLight tube = read_line(node);
+    if (const auto normal = node.find("normal")) tube.normal = read_normal(*normal, tube);
     tube.radius = read_length(node.at("radius"));
     if (const auto finite = node.find("finite"))
         tube.model = finite->boolean() ? TubeModel::solid : TubeModel::linear;
@@ -122,11 +132,7 @@ Lights read_strip(const JsonNode& node) {
     LineLight strip = read_line(node);
     strip.model = TubeModel::strip;
     strip.radius = 0.5f * read_length(node.at("width"));
-    const JsonNode normal = node.at("normal");
-    const Double3 axis = normalized(to_double(strip.end) - to_double(strip.start));
-    const Double3 across = cross(axis, read_direction(normal));
-    if (!(length(across) > 0)) normal.fail("must not be parallel to the strip");
-    strip.normal = to_float(normalized(cross(across, axis)));
+    strip.normal = read_normal(node.at("normal"), strip);
     return only(strip);
 }
 
@@ -250,35 +256,68 @@ std::vector<std::string_view> emission_field_names() {
     return names;
 }
 
-/// The files that a rig names.
-struct RigFiles {
+/// The files of a rig, and where it looks for them.
+struct NamedFiles {
     std::filesystem::path folder; ///< of the rig
-    Luminaires luminaires = {};
+    RigFiles files = {};
 };
 
-std::shared_ptr<const Luminaire> read_ies_file(const JsonNode& node, RigFiles& files) {
+/// What a function reads from a file that a rig names.
+template <class Content>
+std::shared_ptr<const Content>
+read_file(const JsonNode& node, NamedFiles& named,
+          std::shared_ptr<const Content> (RigFiles::*read)(const std::filesystem::path&)) {
+    const std::filesystem::path path = named.folder / node.text();
     try {
-        return files.luminaires.read(files.folder / node.text());
+        return (named.files.*read)(path);
     } catch (const std::exception& error) {
         node.fail(error.what());
     }
 }
 
-GivenProfile read_profile(const JsonNode& entry, RigFiles& files) {
+GivenImage read_image(const JsonNode& entry, NamedFiles& named) {
+    GivenImage given;
+    const auto node = find_one(entry, {"image", "map"});
+    const auto scale = entry.find("image_scale");
+    if (scale) {
+        if (!node) scale->fail("needs \"image\" or \"map\"");
+        given.scale = read_emission(*scale);
+    }
+    if (!node) return given;
+    if (entry.find("map"))
+        given.map = read_file(*node, named, &RigFiles::map);
+    else
+        given.image = read_file(*node, named, &RigFiles::image);
+    return given;
+}
+
+/// One angle, or those along and across.
+HoneycombAngles read_honeycomb(const JsonNode& node) {
+    const auto angle = [](const JsonNode& number) { return number.number(kNarrowestSpread, kWidestSpread); };
+    if (node.is_number()) return {angle(node), angle(node)};
+    const std::vector<JsonNode> angles = node.elements();
+    if (angles.size() != 2) node.fail("must be one or two angles, found " + std::to_string(angles.size()));
+    return {angle(angles[0]), angle(angles[1])};
+}
+
+GivenProfile read_profile(const JsonNode& entry, NamedFiles& named) {
     GivenProfile profile;
-    if (const auto node = entry.find("ies")) profile.luminaire = read_ies_file(*node, files);
+    if (const auto node = entry.find("ies")) profile.luminaire = read_file(*node, named, &RigFiles::profile);
     if (const auto node = entry.find("spread"))
         profile.spread = node->number(kNarrowestSpread, kWidestSpread);
-    if (const auto node = entry.find("ies_degrees")) {
-        if (profile.luminaire == nullptr) node->fail("needs \"ies\"");
-        profile.angle = node->number(-kMaxDegrees, kMaxDegrees);
+    if (const auto node = entry.find("honeycomb")) {
+        if (profile.spread) node->fail("does not work together with \"spread\"; keep one of them");
+        profile.honeycomb = read_honeycomb(*node);
     }
+    if (const auto node = entry.find("ies_degrees")) profile.angle = node->number(-kMaxDegrees, kMaxDegrees);
     return profile;
 }
 
-LightChanges read_changes(const JsonNode& entry, RigFiles& files) {
+LightChanges read_changes(const JsonNode& entry, NamedFiles& named) {
     LightChanges changes;
-    changes.profile = read_profile(entry, files);
+    changes.profile = read_profile(entry, named);
+    changes.image = read_image(entry, named);
+    if (const auto node = entry.find("rotate_map")) changes.map_rotation = read_rotation(*node);
     if (const auto node = entry.find("name")) changes.name = node->text();
     changes.shape = read_shape(entry);
     if (const auto node = entry.find("scale")) changes.scale = read_scale(*node);
@@ -320,22 +359,23 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     return addition;
 }
 
-RigLight read_light(const JsonNode& entry, RigFiles& files) {
+RigLight read_light(const JsonNode& entry, NamedFiles& named) {
     std::vector<std::string_view> fields = {"light", "add", "comment", "name"};
     const std::vector<std::string_view> shapes = shape_field_names();
     fields.insert(fields.end(), shapes.begin(), shapes.end());
     const std::vector<std::string_view> emission = emission_field_names();
     fields.insert(fields.end(), emission.begin(), emission.end());
-    fields.insert(fields.end(),
-                  {"material", "scale", "rotate", "center", "move", "copies", "kelvin", "power", "enabled",
-                   "two_sided", "remove", "scale_radiance", "ies", "ies_degrees", "spread"});
+    fields.insert(fields.end(), {"material",  "scale",          "rotate", "center",      "move",
+                                 "copies",    "kelvin",         "power",  "enabled",     "two_sided",
+                                 "remove",    "scale_radiance", "ies",    "ies_degrees", "spread",
+                                 "honeycomb", "image",          "map",    "image_scale", "rotate_map"});
     entry.check_fields(fields, kLightSynonyms);
     if (!find_one(entry, {"light", "add"}))
         entry.fail(
             "must have the field \"light\", which selects lights, or \"add\" with the name of a new one");
     RigLight result;
     result.where = entry.where();
-    result.changes = read_changes(entry, files);
+    result.changes = read_changes(entry, named);
     if (const auto light = entry.find("light")) {
         for (const char* field : {"copies", "material"})
             if (const auto node = entry.find(field)) node->fail("is supported only for new lights");
@@ -404,9 +444,9 @@ Rig read_rig(const std::filesystem::path& path) {
     root.check_fields({"version", "comment", "lights", "materials"});
     root.at("version").integer(1, 1);
     Rig rig;
-    RigFiles files{path.parent_path()};
+    NamedFiles named{path.parent_path()};
     if (const auto lights = root.find("lights"))
-        for (const JsonNode& entry : lights->elements()) rig.lights.push_back(read_light(entry, files));
+        for (const JsonNode& entry : lights->elements()) rig.lights.push_back(read_light(entry, named));
     if (const auto materials = root.find("materials"))
         for (const JsonNode& entry : materials->elements()) rig.materials.push_back(read_material(entry));
     return rig;

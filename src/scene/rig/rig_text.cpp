@@ -2,6 +2,7 @@
 
 #include "scene/model/number_text.h"
 #include "scene/rig/light_edit.h"
+#include "scene/rig/light_image.h"
 #include "scene/rig/light_profile.h"
 
 #include <algorithm>
@@ -68,9 +69,14 @@ std::string light_text(const Scene& scene, std::size_t index, const EditableLigh
     const std::string shape = shape_field(light);
     fields.add(shape);
     if (shape.empty()) fields.add("center", triple_text(to_float(centroid(light))));
+    fields.add("image", name_text(image_path(scene, light)));
+    fields.add("map", name_text(map_path(scene, light)));
     const LightProfile profile = profile_of(scene, light);
     if (profile.luminaire != nullptr) fields.add("ies", name_text(profile.luminaire->path));
     if (profile.spread < kWidestSpread) fields.add("spread", number_text(static_cast<float>(profile.spread)));
+    if (profile.honeycomb != HoneycombAngles{})
+        fields.add("honeycomb", "[" + number_text(static_cast<float>(profile.honeycomb.along)) + ", " +
+                                    number_text(static_cast<float>(profile.honeycomb.across)) + "]");
     fields.add(common_text(light, [](const LightList& list, std::size_t i) {
         return "\"" + std::string(list.quantity().name) + "\": " + triple_text(list.emission(i));
     }));

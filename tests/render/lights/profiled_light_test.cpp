@@ -1,33 +1,20 @@
 /// Lights with an IES profile or a spread, from files to pixels: the intensity in the far field, the flux, what cameras see, and
 /// that all ways to sample them have one expectation.
 
-#include "base/temporary_folder.h"
+#include "lights/far_field.h"
 #include "lossy_tracer.h"
-#include "scene/ies/ies_cases.h"
-#include "scene/import/importers.h"
-#include "scene/model/profiles/emission_profile.h"
-#include "scene/model/profiles/profile_radiance.h"
-#include "scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <functional>
 #include <string>
 
 namespace nusselt::render_test {
 namespace {
-
-using scene::Double3;
-using scene::test::Case;
-using scene::test::kDegree;
-using scene::test::kPi;
-
-constexpr double kSide = 0.7;
-constexpr double kHeight = 50 * kSide;
-constexpr int kPixels = 20;
-constexpr double kAlbedo = 0.5;
 
 /// A square at the height of 50 sizes that shines down, with the half-plane of 0 degrees along +y.
 const std::string kSquare = "Shape \"trianglemesh\" \"point3 P\" [ -0.35 -0.35 35  -0.35 0.35 35  "
@@ -38,81 +25,10 @@ const std::string kBox =
     "0.35 0.35 34.8  0.35 -0.35 34.8  -0.35 -0.35 35.2  -0.35 0.35 35.2  0.35 0.35 35.2  "
     "0.35 -0.35 35.2 ] \"integer indices\" [ 0 1 2  0 2 3  4 6 5  4 7 6  0 5 1  0 4 5  "
     "1 6 2  1 5 6  2 7 3  2 6 7  3 4 0  3 7 4 ]\n";
-const std::string kEmission = "AreaLightSource \"diffuse\" \"string ies\" \"lamp.ies\"";
 const std::string kPoint = "Translate 0 0 35 Rotate 180 1 1 0 "
                            "LightSource \"point\" \"string ies\" \"lamp.ies\"\n";
 
-/// A floor below a light, as the light sees it.
-scene::Scene load(const Case& lamp, const std::string& light) {
-    const base::TemporaryFolder folder;
-    write(lamp, folder.path());
-    std::ofstream(folder / "scene.pbrt")
-        << "Film \"rgb\" \"integer xresolution\" " << kPixels << " \"integer yresolution\" " << kPixels
-        << "\nPixelFilter \"box\"\nLookAt 0 0 34.7  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 140\n"
-        << "WorldBegin\nMaterial \"diffuse\" \"rgb reflectance\" [ 0.5 0.5 0.5 ]\n"
-        << "Shape \"trianglemesh\" \"point3 P\" [ -400 -400 0  400 -400 0  400 400 0  -400 400 0 ] "
-        << "\"integer indices\" [ 0 1 2  0 2 3 ]\nAttributeBegin\n"
-        << light << "AttributeEnd\n";
-    return scene::load_scene(folder / "scene.pbrt");
-}
-
 scene::Scene load_square(const Case& lamp) { return load(lamp, kEmission + '\n' + kSquare); }
-
-/// A direction of the world in the frame of the square.
-Double3 in_profile(const Double3& w) { return {w.y, w.x, -w.z}; }
-
-/// The point of the floor that the centre of a pixel sees.
-Double3 floor_point(const scene::Camera& camera, int i, int j) {
-    const auto at = [&](float Float3::*axis) {
-        return double{camera.corner.*axis} + (i + 0.5) * camera.right.*axis + (j + 0.5) * camera.down.*axis;
-    };
-    const double t = -camera.origin.z / at(&Float3::z);
-    return {camera.origin.x + t * at(&Float3::x), camera.origin.y + t * at(&Float3::y), 0};
-}
-
-/// What the floor receives from a light in its middle above it.
-image::Image render_floor(const scene::Scene& scene) {
-    render::RenderSettings settings;
-    settings.samples = 64;
-    settings.camera_rays = 1;
-    settings.pixel_position = render::PixelPosition::center;
-    return render_cpu::Renderer(scene, 1).render(settings, base::choose_isa()).image;
-}
-
-/// The largest relative error of the intensities that the floor receives. Directions of less than a hundredth of the peak are left
-/// out.
-double far_field_error(const scene::Camera& camera, const image::Image& floor,
-                       const scene::test::Intensity& intensity, double peak) {
-    double worst = 0;
-    for (int j = 0; j < kPixels; ++j)
-        for (int i = 0; i < kPixels; ++i) {
-            const Double3 way = floor_point(camera, i, j) - Double3{0, 0, kHeight};
-            const double squared = dot(way, way);
-            const Double3 w = normalized(way);
-            const double expected = intensity(in_profile(w));
-            if (expected < 0.01 * peak) continue;
-            const double radiance = double{floor.pixels[static_cast<std::size_t>(3 * (j * kPixels + i))]};
-            const double found = radiance * kPi / kAlbedo * scene::kLumensPerWatt * squared / -w.z;
-            worst = std::max(worst, std::fabs(found / expected - 1));
-        }
-    return worst;
-}
-
-double far_field_error(const scene::Scene& scene, const scene::test::Intensity& intensity, double peak) {
-    return far_field_error(scene.camera, render_floor(scene), intensity, peak);
-}
-
-const scene::IntensityProfile& table_of(const scene::Scene& scene) {
-    return scene.emission_profiles.at(0).profile->luminaire->profile;
-}
-
-/// The flux of all polygons [lm].
-double flux_of(const scene::Scene& scene) {
-    double flux = 0;
-    for (const scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>())
-        flux += (light.two_sided ? 2 : 1) * kPi * area(light) * double{light.radiance.y};
-    return scene::kLumensPerWatt * flux;
-}
 
 /// The integral of an intensity times a weight of the cosine over all directions.
 double integral(const scene::test::Intensity& intensity, const std::function<double(double)>& weight) {
@@ -257,13 +173,13 @@ TEST(ProfiledLight, AllWaysToSampleHaveTheSameExpectation) {
 }
 
 /// A point of the floor below the middle of a panel of 2 x 2 m at a height of 1 m, with a radiance of 1.
-scene::Scene make_spread_scene(double spread, bool two_sided) {
+scene::Scene make_spread_scene(const scene::ProfileRequest& request, bool two_sided) {
     scene::Scene scene = make_floor(8);
     scene.materials.push_back({.name = "black", .diffuse = {0, 0, 0}});
     add_polygon_light(scene, {Float3{-1, -1, 1}, Float3{-1, 1, 1}, Float3{1, 1, 1}, Float3{1, -1, 1}},
                       {1, 1, 1}, two_sided, 1);
     scene::PolygonLight& light = scene.lights.of<scene::PolygonLight>().back();
-    const auto shape = scene::profile_shape(std::span(&light, 1), 0, {nullptr, spread, 0});
+    const auto shape = scene::profile_shape(std::span(&light, 1), 0, request);
     scene.emission_profiles = shape->emissions;
     light.profile = 0;
     set_camera(scene, {0, -0.1f, 0.9f}, {0, 0, 0}, {0, 1, 0}, 1e-3, 4, 4);
@@ -285,33 +201,115 @@ double spread_irradiance(double spread) {
     return sum / (flux / kPi);
 }
 
+/// The same for a honeycomb that lies along the sides of the panel, with the slopes s of its holes along x and t along y.
+/// \param place of the point along x, from the middle
+double honeycomb_irradiance(double s, double t, double place) {
+    constexpr int kSteps = 600;
+    const double width = std::atan(s), height = std::atan(t);
+    double sum = 0, flux = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double p = std::tan(width * ((i + 0.5) / (kSteps / 2) - 1));
+        for (int k = 0; k < kSteps; ++k) {
+            const double q = std::tan(height * (k + 0.5) / kSteps);
+            const double squared = 1 + p * p + q * q;
+            const double weight = (1 - std::fabs(p) / s) * (1 - q / t) * (1 + p * p) * (1 + q * q) /
+                                  (squared * squared) * 4 * width * height / (double{kSteps} * kSteps);
+            flux += weight;
+            if (std::fabs(place + p) < 1 && q < 1) sum += weight;
+        }
+    }
+    return sum / (flux / kPi);
+}
+
+struct MeanAndDeviation {
+    double mean, deviation;
+};
+
+/// Of single samples.
+MeanAndDeviation sample_floor(const scene::Scene& scene) {
+    const render_cpu::Renderer renderer(scene, 1);
+    render::RenderSettings settings;
+    settings.samples = 1;
+    settings.camera_rays = 1;
+    settings.sample_order = render::SampleOrder::independent;
+    double sum = 0, squares = 0;
+    constexpr int kRuns = 64;
+    for (int seed = 0; seed < kRuns; ++seed) {
+        settings.seed = static_cast<std::uint32_t>(seed);
+        const image::Image image = renderer.render(settings, base::choose_isa()).image;
+        for (int i = 0; i < 16; ++i) {
+            const double value = double{image.pixels[static_cast<std::size_t>(3 * i)]};
+            sum += value;
+            squares += value * value;
+        }
+    }
+    constexpr double kCount = 16 * kRuns;
+    const double mean = sum / kCount;
+    return {mean, std::sqrt(std::max(squares / kCount - mean * mean, 0.0))};
+}
+
 TEST(ProfiledLight, SpreadKeepsThePowerAndAddsLittleNoise) {
     for (const double spread : {1.0, 5.0, 20.0, 60.0}) {
         for (const bool two_sided : {false, true}) {
-            const scene::Scene scene = make_spread_scene(spread, two_sided);
-            const render_cpu::Renderer renderer(scene, 1);
-            render::RenderSettings settings;
-            settings.samples = 1;
-            settings.camera_rays = 1;
-            settings.sample_order = render::SampleOrder::independent;
-            double sum = 0, squares = 0;
-            constexpr int kRuns = 64;
-            for (int seed = 0; seed < kRuns; ++seed) {
-                settings.seed = static_cast<std::uint32_t>(seed);
-                const image::Image image = renderer.render(settings, base::choose_isa()).image;
-                for (int i = 0; i < 16; ++i) {
-                    const double value = double{image.pixels[static_cast<std::size_t>(3 * i)]};
-                    sum += value;
-                    squares += value * value;
-                }
-            }
-            constexpr double kCount = 16 * kRuns;
-            const double mean = sum / kCount;
-            const double deviation = std::sqrt(std::max(squares / kCount - mean * mean, 0.0));
+            const auto [mean, deviation] = sample_floor(make_spread_scene({nullptr, spread, 0}, two_sided));
             const double expected = double{kFloorAlbedo} / kPi * spread_irradiance(spread);
             EXPECT_NEAR(mean / expected, 1, 0.01) << spread;
             EXPECT_LT(deviation, 0.08 * mean) << spread;
         }
+    }
+}
+
+TEST(ProfiledLight, HoneycombsKeepThePowerAndAddLittleNoise) {
+    const auto sample = [](double along, double across, double angle, double place) {
+        scene::Scene scene =
+            make_spread_scene({nullptr, scene::kWidestSpread, angle, {along, across}}, false);
+        const auto x = static_cast<float>(place);
+        set_camera(scene, {x, -0.1f, 0.9f}, {x, 0, 0}, {0, 1, 0}, 1e-3, 4, 4);
+        return sample_floor(scene);
+    };
+    const auto slope = [](double angle) { return std::min(std::tan(0.5 * angle * kDegree), 1e6); };
+    const std::array<double, 2> cases[] = {{22.6, 22.6}, {5, 40}, {60, 10}, {1, 180}};
+    for (const auto& [along, across] : cases) {
+        // In the middle of the panel and at its border, where little is left of the holes on one side.
+        for (const double place : {0.0, 0.97}) {
+            // The first edge of the panel is along y.
+            for (const double angle : {0.0, 90.0}) {
+                const double s = slope(angle == 0 ? across : along);
+                const double t = slope(angle == 0 ? along : across);
+                const double expected = double{kFloorAlbedo} / kPi * honeycomb_irradiance(s, t, place);
+                const auto [mean, deviation] = sample(along, across, angle, place);
+                std::printf("honeycomb %g x %g: noise %.4f\n", along, across, deviation / mean);
+                EXPECT_NEAR(mean / expected, 1, 0.01) << along << " " << angle << " " << place;
+                EXPECT_LT(deviation, 0.08 * mean) << along << " " << angle << " " << place;
+            }
+        }
+        if (across == scene::kWidestSpread) continue;
+        // The test of the test: holes of another shape.
+        const double expected =
+            double{kFloorAlbedo} / kPi * honeycomb_irradiance(slope(across), slope(along), 0.97);
+        EXPECT_GT(std::fabs(sample(along, 0.7 * across, 0, 0.97).mean / expected - 1), 0.01) << along;
+    }
+}
+
+/// What cameras see from different sides of a honeycomb that is turned by 30 degrees.
+TEST(ProfiledLight, HoneycombsLieAlongTheirAngle) {
+    const scene::ProfileRequest request{nullptr, scene::kWidestSpread, 30, {60, 20}};
+    scene::Scene scene = make_spread_scene(request, false);
+    const double s = std::tan(30 * kDegree), t = std::tan(10 * kDegree);
+    const double flux = scene::passed_flux({nullptr, scene::kWidestSpread, request.honeycomb});
+    for (const double azimuth : {0.0, 30.0, 75.0, 120.0}) {
+        const double slope = 0.11;
+        // The first edge is along y; seen from below, where it shines to, angles count from y towards x.
+        const double edge = azimuth * kDegree;
+        const Double3 w{slope * std::sin(edge), slope * std::cos(edge), -1};
+        set_camera(scene, to_float(Double3{0.1, 0.1, 1} + 0.5 * w), {0.1f, 0.1f, 1}, {1, 0, 0}, 1e-4, 1, 1);
+        render::RenderSettings settings;
+        settings.samples = 1;
+        const image::Image image = render_cpu::Renderer(scene, 1).render(settings, base::choose_isa()).image;
+        const double turned = (azimuth - 30) * kDegree;
+        const double expected = (1 - slope * std::fabs(std::cos(turned)) / s) *
+                                (1 - slope * std::fabs(std::sin(turned)) / t) / flux;
+        EXPECT_NEAR(double{image.pixels[1]} / expected, 1, 1e-3) << azimuth;
     }
 }
 

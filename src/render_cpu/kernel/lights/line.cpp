@@ -10,12 +10,14 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     add[1] = tube_points(job);
     add[2] = textured_lines(job);
     add[3] = textured_tubes(job);
+    add[4] = profiled_lines(job);
+    add[5] = profiled_tubes(job);
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
     const render_cpu::LineRecord& record = line_record(lights, index);
     const bool is_thin = record.model == scene::TubeModel::linear || record.model == scene::TubeModel::strip;
-    return (is_thin ? 0 : 1) + (record.profile == nullptr ? 0 : 2);
+    return (is_thin ? 0 : 1) + (record.directions != nullptr ? 4 : record.profile != nullptr ? 2 : 0);
 }
 
 /// Where a ray that meets a light does so, as a share of the length. Cameras see a cylinder with flat sides: rays that miss
@@ -38,14 +40,33 @@ float position_along(const render_cpu::LineRecord& record, const Cylinder<float>
     return along > 0 ? min(along / axis.length, 1.0f) : 0.0f;
 }
 
+/// The radiance of a light with a profile over its mean. \param wi unit, towards the light
+float relative_radiance(const render_cpu::LineRecord& record, const Cylinder<float>& tube,
+                        const Vec3<float>& wi) noexcept {
+    const bool is_thin = record.model == scene::TubeModel::linear || record.model == scene::TubeModel::strip;
+    const LightHit<float> hit = intersect(tube, wi);
+    // Beside the round cylinder, cameras see no normal.
+    if (is_thin || !hit.hits) return radiance_of_line(record, -wi);
+    const Vec3<float> from_start = hit.distance * wi - tube.axis.p0;
+    const Vec3<float> across = from_start - dot(from_start, tube.axis.s) * tube.axis.s;
+    const Vec3<float> normal = meets_cap(tube, wi) ? tube.axis.s : normalize(across);
+    return spread_share(*record.directions, abs(dot(normal, wi))) *
+           luminance_of_line(*record.directions, -wi);
+}
+
 scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,
                        const scene::Float3& direction) noexcept {
     const render_cpu::LineRecord& record = line_record(lights, index);
-    if (record.model != scene::TubeModel::open && record.profile == nullptr) return record.radiance;
+    if (record.model != scene::TubeModel::open && record.profile == nullptr && record.directions == nullptr)
+        return record.radiance;
     const Cylinder<float> tube{
         {to_vec(record.begin) - to_vec(origin), to_vec(record.direction), record.length}, record.radius};
     const Vec3<float> wi = normalize(to_vec(direction));
     if (record.model == scene::TubeModel::open && meets_cap(tube, wi)) return {0, 0, 0};
+    if (record.directions != nullptr) {
+        const float factor = relative_radiance(record, tube, wi);
+        return {factor * record.radiance.x, factor * record.radiance.y, factor * record.radiance.z};
+    }
     if (record.profile == nullptr) return record.radiance;
     const Vec3<float> radiance =
         static_cast<const LineRadiance*>(record.profile)->lookup(position_along(record, tube, wi));

@@ -2,7 +2,9 @@
 /// Linear lights, strips and tubes.
 
 #include "render_cpu/kernel/analytic.h"
+#include "render_cpu/kernel/lights/luminaire.h"
 #include "render_cpu/kernel/reflected_light.h"
+#include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/line_records.h"
 
@@ -60,12 +62,57 @@ struct RelativeRadiance {
     }
 };
 
+/// The share of radiance that the spread of a lateral surface or a strip passes as a whole.
+/// \param along cosine of the direction with the light, \param cosine that with the normal of the light
+inline float whole_spread_share(const render_cpu::LineRecord& record, float along, float cosine) noexcept {
+    const render_cpu::LineProfileRecord& profile = *record.directions;
+    if (!(profile.inverse_slope > 0)) return 1;
+    if (record.model == scene::TubeModel::strip) return spread_share(profile, abs(cosine));
+    const float sine = sqrt(max(1 - along * along, kTiny<float>));
+    const float at = abs(along) / sine * profile.inverse_slope * render_cpu::kTubeSpreadCells;
+    if (!(at < render_cpu::kTubeSpreadCells)) return 0;
+    const int i = static_cast<int>(at);
+    const float share = at - static_cast<float>(i);
+    return (1 - share) * profile.spread[i] + share * profile.spread[i + 1];
+}
+
+/// The luminance of the profile of a light over its mean. \param away unit, in world space
+inline float luminance_of_line(const render_cpu::LineProfileRecord& profile,
+                               const Vec3<float>& away) noexcept {
+    return relative_luminance(profile, {dot(to_vec(profile.x_axis), away), dot(to_vec(profile.y_axis), away),
+                                        dot(to_vec(profile.z_axis), away)});
+}
+
+/// The radiance of a light with a profile over its mean, as that of a linear light or a strip. \param away unit, in world space
+inline float radiance_of_line(const render_cpu::LineRecord& record, const Vec3<float>& away) noexcept {
+    const render_cpu::LineProfileRecord& profile = *record.directions;
+    return whole_spread_share(record, dot(to_vec(record.direction), away),
+                              dot(to_vec(profile.normal), away)) *
+           luminance_of_line(profile, away);
+}
+
+/// Multiplies a sample by a function of lanes and of directions away from the light in world space.
+template <class Factor>
+void modulate_by_direction(const Surface& surface, const Factor& factor,
+                           DirectLightSample<Real>& sample) noexcept {
+    const Vector away = surface.frame.to_world(-sample.wi);
+    alignas(4 * kLanes) float factors[kLanes];
+    for (int i = 0; i < kLanes; ++i) factors[i] = factor(i, single_lane<Vec3<float>>(away, i));
+    sample.shadowed = Real::load(factors) * sample.shadowed;
+}
+
 /// A line in shading space.
 struct LocalLine : LineSegment<Real> {
     RelativeRadiance radiance;
+    const render_cpu::LineRecord* record;
 
-    void modulate(const Surface& /*surface*/, DirectLightSample<Real>& sample) const noexcept {
+    void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
         radiance.modulate(*this, sample);
+        if (record->directions == nullptr) return;
+        const auto factor = [&](int /*lane*/, const Vec3<float>& away) {
+            return radiance_of_line(*record, away);
+        };
+        modulate_by_direction(surface, factor, sample);
     }
 };
 
@@ -83,7 +130,7 @@ struct LinearLight {
             const Vector normal = reflected.surface().frame.to_local(broadcast<Real>(to_vec(record.normal)));
             emission = strip_facing(local, normal) * emission;
         }
-        return {{local, RelativeRadiance(record)},
+        return {{local, RelativeRadiance(record), &record},
                 reflected.lanes() & !(max(local.p0.z, end) <= Real(0)),
                 emission,
                 static_cast<std::uint32_t>(lights.first + index)};
@@ -116,9 +163,11 @@ struct LinearLight {
 struct Tube : Cylinder<Real> {
     scene::TubeModel model;
     RelativeRadiance radiance;
+    const render_cpu::LineProfileRecord* directions; ///< null for the same radiance in all directions
 
-    void modulate(const Surface& /*surface*/, DirectLightSample<Real>& sample) const noexcept {
+    void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
         radiance.modulate(axis, sample);
+        if (directions != nullptr) modulate_by_profile(surface, sample);
         if (model != scene::TubeModel::open) return;
         const Vector zero{Real(0), Real(0), Real(0)};
         sample.shadowed = select(meets_cap(*this, sample.wi), zero, sample.shadowed);
@@ -128,6 +177,21 @@ struct Tube : Cylinder<Real> {
     template <class Density>
     Real caps(const Density& density) const noexcept {
         return model == scene::TubeModel::open ? Real(0) : caps_integral(axis, radius, density);
+    }
+
+private:
+    void modulate_by_profile(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
+        // The normal of the lateral surface, or of a cap.
+        const Vector from_start = sample.p - axis.p0;
+        const Vector across = from_start - dot(from_start, axis.s) * axis.s;
+        const Real lateral = -dot(across, sample.wi) / sqrt(max(dot(across, across), Real(kTiny<float>)));
+        const Real cosines = select(meets_cap(*this, sample.wi), abs(dot(axis.s, sample.wi)), lateral);
+        alignas(4 * kLanes) float cosine[kLanes];
+        cosines.store(cosine);
+        const auto factor = [&](int lane, const Vec3<float>& away) {
+            return spread_share(*directions, cosine[lane]) * luminance_of_line(*directions, away);
+        };
+        modulate_by_direction(surface, factor, sample);
     }
 };
 
@@ -148,7 +212,7 @@ struct TubeLight {
         const LineSegment<Real> l = local_axis(reflected, record);
         const Real slope = sqrt(max(Real(1) - l.s.z * l.s.z, Real(0)));
         const Real highest = max(l.p0.z, l.p0.z + l.length * l.s.z) + Real(record.radius) * slope;
-        return {{{l, Real(record.radius)}, record.model, RelativeRadiance(record)},
+        return {{{l, Real(record.radius)}, record.model, RelativeRadiance(record), record.directions},
                 reflected.lanes() & !(highest <= Real(0)),
                 broadcast<Real>(to_vec(record.radiance)),
                 static_cast<std::uint32_t>(lights.first + index)};
@@ -193,6 +257,9 @@ render_cpu::AddLight tube_points(const render_cpu::RenderJob& job) noexcept;
 /// The same for lights whose radiance varies.
 render_cpu::AddLight textured_lines(const render_cpu::RenderJob& job) noexcept;
 render_cpu::AddLight textured_tubes(const render_cpu::RenderJob& job) noexcept;
+/// The same for lights whose radiance depends on the direction.
+render_cpu::AddLight profiled_lines(const render_cpu::RenderJob& job) noexcept;
+render_cpu::AddLight profiled_tubes(const render_cpu::RenderJob& job) noexcept;
 
 } // namespace kernel
 NUSSELT_NAMESPACE_END

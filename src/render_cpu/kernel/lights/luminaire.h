@@ -42,33 +42,21 @@ inline float intensity_in(const render_cpu::LuminaireTable& table, const Vec3<fl
     return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
 }
 
-/// The axes of a profile and the normal of its polygon, in any frame.
-template <class R>
-struct ProfileAxes {
-    Vec3<R> x, y, z, normal;
-};
-
-/// The axes in world space.
-inline ProfileAxes<float> axes_of(const render_cpu::PolygonProfile& profile) noexcept {
-    return {to_vec(profile.x_axis), to_vec(profile.y_axis), to_vec(profile.z_axis), to_vec(profile.normal)};
+/// The share of radiance that a spread passes. \param cosine of the direction with the normal
+inline float spread_share(const render_cpu::ProfileRecord& profile, float cosine) noexcept {
+    if (!(profile.inverse_slope > 0)) return 1;
+    const float sine = sqrt(max(1 - cosine * cosine, 0.0f));
+    return max(1 - sine / max(cosine, kTiny<float>) * profile.inverse_slope, 0.0f);
 }
 
-/// The radiance in a direction over its mean. \param away unit, from the light, in the frame of the axes
-inline float relative_radiance(const render_cpu::PolygonProfile& profile, const ProfileAxes<float>& axes,
-                               const Vec3<float>& away) noexcept {
-    float value = profile.inverse_mean;
-    if (profile.inverse_slope > 0) {
-        const float along = dot(axes.normal, away);
-        const Vec3<float> across = away - along * axes.normal;
-        const float slope = sqrt(dot(across, across)) / max(abs(along), kTiny<float>);
-        value *= max(1 - slope * profile.inverse_slope, 0.0f);
-    }
-    if (profile.luminaire.vertical == nullptr || !(value > 0)) return value;
-    const Vec3<float> w{dot(axes.x, away), dot(axes.y, away), dot(axes.z, away)};
-    float visible = 0;
+/// The luminance of a profile without spread, over the mean. \param w unit, in the frame of the profile
+inline float relative_luminance(const render_cpu::ProfileRecord& profile, const Vec3<float>& w) noexcept {
+    if (profile.luminaire.vertical == nullptr) return profile.inverse_mean;
+    const float along = dot(to_vec(profile.round_axis), w);
+    float visible = profile.round_area * sqrt(max(1 - along * along, 0.0f));
     for (std::int32_t i = 0; i < profile.face_count; ++i)
         visible += profile.faces[i].area * max(dot(to_vec(profile.faces[i].normal), w), 0.0f);
-    return value * intensity_in(profile.luminaire, w) / max(visible, profile.least_area);
+    return profile.inverse_mean * intensity_in(profile.luminaire, w) / max(visible, profile.least_area);
 }
 
 } // namespace kernel

@@ -40,12 +40,41 @@ inline const render_cpu::PolygonProfile* profile_of(const render_cpu::LightSet& 
                        : static_cast<const render_cpu::PolygonRecords*>(lights.records)->profiles + profile;
 }
 
-/// The axes of a profile in shading space.
+/// The axes of a profile, the normal of its polygon, and the direction of its honeycomb, in any frame.
+template <class R>
+struct ProfileAxes {
+    Vec3<R> x, y, z, normal, holes;
+};
+
+/// The axes in world space.
+inline ProfileAxes<float> axes_of(const render_cpu::PolygonProfile& profile) noexcept {
+    return {to_vec(profile.x_axis), to_vec(profile.y_axis), to_vec(profile.z_axis), to_vec(profile.normal),
+            to_vec(profile.hole_axis)};
+}
+
+/// The axes in shading space.
 inline ProfileAxes<Real> local_axes(const render_cpu::PolygonProfile& profile,
                                     const Surface& surface) noexcept {
     const ProfileAxes<float> world = axes_of(profile);
     const auto local = [&](const Vec3<float>& axis) { return surface.frame.to_local(broadcast<Real>(axis)); };
-    return {local(world.x), local(world.y), local(world.z), local(world.normal)};
+    return {local(world.x), local(world.y), local(world.z), local(world.normal), local(world.holes)};
+}
+
+/// The radiance in a direction over its mean. \param away unit, from the light, in the frame of the axes
+inline float relative_radiance(const render_cpu::PolygonProfile& profile, const ProfileAxes<float>& axes,
+                               const Vec3<float>& away) noexcept {
+    const float along = dot(axes.normal, away);
+    const Vec3<float> across = away - along * axes.normal;
+    const float distance = max(abs(along), kTiny<float>);
+    float share = 1;
+    if (profile.inverse_slope > 0)
+        share = max(1 - sqrt(dot(across, across)) / distance * profile.inverse_slope, 0.0f);
+    const scene::Float2& holes = profile.inverse_holes;
+    if (holes.x > 0 || holes.y > 0)
+        share *= max(1 - abs(dot(axes.holes, across)) / distance * holes.x, 0.0f) *
+                 max(1 - abs(dot(cross(axes.normal, axes.holes), across)) / distance * holes.y, 0.0f);
+    if (!(share > 0)) return 0;
+    return share * relative_luminance(profile, {dot(axes.x, away), dot(axes.y, away), dot(axes.z, away)});
 }
 
 inline TexturePlane<float> plane_of(const render_cpu::PolygonTexture& texture) noexcept {

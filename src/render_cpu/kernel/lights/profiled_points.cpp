@@ -86,7 +86,8 @@ void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lig
 template <int N>
 LaneMask sees_few_directions(const LocalPolygon<N>& shape) noexcept {
     constexpr float kFewDirections = 0.15f;
-    const float slope = shape.profile->inverse_slope;
+    const scene::Float2& holes = shape.profile->inverse_holes;
+    const float slope = max(shape.profile->inverse_slope, max(holes.x, holes.y));
     const float largest = kFewDirections / max(slope, 1.0f);
     Real nearest = dot(shape.vertex[0], shape.vertex[0]);
     Real longest = dot(shape.edge[0], shape.edge[0]);

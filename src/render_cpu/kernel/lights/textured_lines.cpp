@@ -2,6 +2,7 @@
 
 #include "render_cpu/kernel/lights/cell_samples.h"
 #include "render_cpu/kernel/lights/line_light.h"
+#include "render_cpu/kernel/lights/tube_integrals.h"
 
 #include <nusselt/emission/textured_tube.h>
 
@@ -82,40 +83,20 @@ void add_by_textured_tube(render_cpu::LitPacket& packet, const render_cpu::Light
         add_samples(reflected, light, TexturedTubes::diffuse(light.shape, reflected.surface().glossy));
 }
 
-/// Closed-form shading: the light of the tube without a texture, times the mean of radiance that its cells and the cap that
-/// is seen have.
 void add_textured_tube_integrals(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                                  std::int32_t index) noexcept {
     auto& reflected = static_cast<ReflectedLight&>(packet);
     const auto light = TubeLight::local(reflected, lights, index);
     if (!any(light.lit)) return;
-    const Surface& surface = reflected.surface();
     const LineRadiance& profile = *light.shape.radiance.profile;
     const LineSegment<Real>& axis = light.shape.axis;
     const LineCells cells(profile, axis);
     const auto sees_start = dot(axis.p0, axis.s) > Real(0);
     const Vector on_cap =
         select(sees_start, broadcast<Real>(profile.lookup(0.0f)), broadcast<Real>(profile.lookup(1.0f)));
-    const Real radius = light.shape.radius;
-    const auto radiance = [&](const TubeIntegral& tube, const Vector& by_cells) {
-        const Real both = tube.side + tube.caps;
-        const auto lit = both > Real(0);
-        const Vector mean = Real(1) / select(lit, both, Real(1)) * (radius * by_cells + tube.caps * on_cap);
-        return select(lit, tube.whole(), Real(0)) * mean;
-    };
-    const Vector diffuse = radiance(TubeLight::diffuse(light.shape), cells.diffuse(light.lit).unshadowed()) *
-                           surface.glossy.diffuse_albedo;
-    const LaneMask glossy = light.lit & surface.glossy.is_glossy();
-    Vector all = diffuse;
-    if (any(glossy)) {
-        const Ltc<Real>& lobe = surface.glossy.lobe;
-        all = all +
-              radiance(TubeLight::specular(light.shape, lobe), cells.specular(glossy, lobe).unshadowed()) *
-                  surface.glossy.specular_albedo;
-    }
     const Real one(1);
-    reflected.add_known(LocalLight<Tube>{light.shape, light.lit, {one, one, one}, light.number},
-                        {all, diffuse});
+    const LocalLight<Tube> plain{light.shape, light.lit, {one, one, one}, light.number};
+    add_tube_integrals(reflected, plain, cells, on_cap);
 }
 
 } // namespace

@@ -137,9 +137,16 @@ EnvironmentMapTexels make_sky_map(const SkyDescription& description) {
     return map;
 }
 
+std::optional<EnvironmentImage> image_kind(const Texture& image) {
+    if (image.width == image.height) return EnvironmentImage::octahedral;
+    if (image.width == 2 * image.height) return EnvironmentImage::latitude;
+    return std::nullopt;
+}
+
 EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind) {
     EnvironmentMapTexels map;
     map.name = image.name;
+    map.path = image.path;
     map.size = map_size(image);
     map.texels.resize(static_cast<std::size_t>(map.size) * static_cast<std::size_t>(map.size));
     const bool keeps_texels = kind == EnvironmentImage::octahedral && image.width == map.size &&

@@ -3,6 +3,8 @@
 
 #include "scene/model/scene.h"
 
+#include <optional>
+
 namespace nusselt::scene {
 
 /// How an image shows all directions.
@@ -13,6 +15,10 @@ enum class EnvironmentImage {
 
 /// Square images of a suitable size keep their texels. Others become interpolated maps with at least as many.
 EnvironmentMapTexels make_environment_map_texels(const Texture& image, EnvironmentImage kind);
+
+/// The kind of an image by its proportions: pbrt v4 has square ones, and other programs write images in latitudes. Nothing if it is
+/// neither square nor twice as wide as high.
+std::optional<EnvironmentImage> image_kind(const Texture& image);
 
 /// A sky by formulas, in the space of the light with the zenith at +z.
 struct SkyDescription {

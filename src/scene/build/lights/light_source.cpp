@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace nusselt::scene {
@@ -124,15 +125,15 @@ bool finish(const LightSourceDescription& /*source*/, const std::vector<Texture>
     return true;
 }
 
-/// The kind of an image by its proportions. pbrt v4 has square ones, and other programs write images in latitudes.
+/// The kind of an image, which is that in latitudes if its proportions do not tell.
 EnvironmentImage image_kind(const LightSourceDescription& source, const Texture& image, Warnings& warnings) {
-    if (image.width == image.height) return EnvironmentImage::octahedral;
-    if (image.width != 2 * image.height)
+    const std::optional<EnvironmentImage> kind = image_kind(image);
+    if (!kind)
         warnings.add(source.origin,
                      subject_of(source) + ": the image '" + image.name +
                          "' is neither square nor twice as wide as high; it is taken for one in "
                          "latitudes and longitudes");
-    return EnvironmentImage::latitude;
+    return kind.value_or(EnvironmentImage::latitude);
 }
 
 bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures,

@@ -1,6 +1,6 @@
 #include "scene/build/lights/profiled_light.h"
 
-#include "scene/model/profiles/emission_profile.h"
+#include "scene/model/profiles/line_profile.h"
 #include "scene/model/profiles/profile_radiance.h"
 #include "scene/model/vector_math.h"
 
@@ -19,16 +19,20 @@ std::size_t edge_from(const PolygonLight& light, const Float3& point) {
     return found == light.vertices.end() ? 0 : static_cast<std::size_t>(found - light.vertices.begin());
 }
 
-/// The radiance of each polygon.
+/// The area of a light with all its sides [m^2].
+double whole_area(const PolygonLight& light) { return (light.two_sided ? 2 : 1) * area(light); }
+double whole_area(const LineLight& light) { return area(light); }
+
+/// The radiance of each light.
+template <class Light>
 std::vector<Float3> radiances(const ShapeDescription& shape, const std::string& subject,
-                              const std::vector<PolygonLight>& lights, const ProfiledShape& profiled) {
+                              const std::vector<Light>& lights, const ProfiledShape& profiled) {
     double all = 0;
     double power = 0; // as measured, for a colour with the luminance 1
     for (std::size_t i = 0; i < lights.size(); ++i) {
         all += area(lights[i]);
         if (!profiled.radiance.empty())
-            power +=
-                (lights[i].two_sided ? 2 : 1) * std::numbers::pi * area(lights[i]) * profiled.radiance[i];
+            power += std::numbers::pi * whole_area(lights[i]) * profiled.radiance[i];
     }
     const Emission& emission = shape.emission;
     if (profiled.radiance.empty())
@@ -42,22 +46,28 @@ std::vector<Float3> radiances(const ShapeDescription& shape, const std::string& 
     return result;
 }
 
+/// Where a shape does not emit, and which one would.
+std::string loss_of(const EmissionProfile& profile) {
+    if (profile.round.area > 0) return "leaves along the tube; a thicker closed tube or a point could";
+    switch (profile.faces.size()) {
+    case 1:
+        return "leaves upward or along the light; a box or a point could";
+    case 2:
+        return "leaves where the shape shows its edge; a closed box or a point could";
+    default:
+        return "leaves where the shape has no face; a closed box or a point could";
+    }
+}
+
 void warn_of_lost_flux(const ShapeDescription& shape, const EmissionProfile& profile, Warnings& warnings) {
     constexpr double kWorthMentioning = 0.01;
     if (profile.luminaire == nullptr || !(profile.lost > kWorthMentioning)) return;
-    const bool is_flat = profile.faces.size() == 1;
     warnings.add(shape.origin, "flux that a shape cannot emit",
                  subject_of(shape) + ": it cannot emit " + to_text(0.1 * std::round(1000 * profile.lost)) +
-                     " % of the flux of '" + profile.luminaire->name + "', which " +
-                     (is_flat ? "leaves upward or along the light; a box or a point could"
-                              : "leaves where the shape has no face; a closed box or a point could"));
+                     " % of the flux of '" + profile.luminaire->name + "', which " + loss_of(profile));
 }
 
 } // namespace
-
-bool has_profile(const Emission& emission) {
-    return emission.profile.luminaire != nullptr || emission.profile.spread < kWidestSpread;
-}
 
 Emission without_profile(const Emission& emission) {
     Emission result = emission;
@@ -94,6 +104,16 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
         for (PolygonLight& light : lights) light.radiance = radiance;
     }
     built.lights.of<PolygonLight>() = std::move(lights);
+}
+
+void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
+                       BuiltShape& built) {
+    ProfiledShape profiled = profile_line(light, shape.emission.profile);
+    light.radiance = radiances(shape, words.emission, std::vector{light}, profiled).front();
+    light.profile = 0;
+    warn_of_lost_flux(shape, *profiled.emissions.front().profile, built.warnings);
+    built.emission_profiles = std::move(profiled.emissions);
+    built.lights.of<LineLight>() = {light};
 }
 
 } // namespace nusselt::scene

@@ -1,13 +1,10 @@
 #pragma once
-/// Makes the polygonal lights of a shape whose radiance depends on the direction.
+/// Makes the lights of a shape whose radiance depends on the direction.
 
 #include "scene/build/build_shape.h"
 #include "scene/build/polygons/polygon_merge.h"
 
 namespace nusselt::scene {
-
-/// Whether an emission has a luminaire or a spread.
-bool has_profile(const Emission& emission);
 
 /// The emission of shapes that cannot have its profile: as much light, alike in all directions.
 Emission without_profile(const Emission& emission);
@@ -16,5 +13,10 @@ Emission without_profile(const Emission& emission);
 /// warning; so does, in a warning, a shape that cannot emit all of the flux of its luminaire.
 void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
                            PolygonPartition&& partition, BuiltShape& built);
+
+/// Adds a tube, a line or a strip whose emission has a luminaire or a spread. Honeycombs have no effect.
+/// \param light all but its radiance, with a normal
+void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
+                       BuiltShape& built);
 
 } // namespace nusselt::scene

@@ -20,10 +20,6 @@ namespace {
 /// The most texels of the part of an image that one light shows, if it repeats those at the edge.
 constexpr double kMaxWindowTexels = 1 << 26;
 
-struct TexturePoint {
-    double x = 0, y = 0;
-};
-
 /// Texture coordinates as an affine function of positions.
 struct TextureMap {
     Double3 origin;
@@ -78,7 +74,8 @@ TexelRange texel_range(double low, double high, int size) {
 }
 
 EmissionTexture crop(const EmissionTexture& image, const TexelRange& columns, const TexelRange& rows) {
-    EmissionTexture result{image.name, static_cast<int>(columns.size()), static_cast<int>(rows.size()), {}};
+    EmissionTexture result{
+        image.name, static_cast<int>(columns.size()), static_cast<int>(rows.size()), {}, image.path};
     result.texels.reserve(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height));
     for (double j = rows.begin; j < rows.end; ++j) {
         const std::size_t row = static_cast<std::size_t>(std::clamp(j, 0.0, image.height - 1.0));
@@ -108,6 +105,26 @@ double area_of(std::span<const Vec2<float>> outline) {
         doubled += det(outline[k - 1] - outline[0], outline[k] - outline[0]);
     return 0.5 * std::fabs(doubled);
 }
+
+/// For lights on which the coordinates hardly change.
+Float3 mean_of_corners(const EmissionTexture& texture, std::span<const Vec2<float>> outline) {
+    const std::vector<Vec3<float>> texels = scaled(texture.texels, {1, 1, 1});
+    const TextureView<float> view{texels.data(), texture.width, texture.height};
+    Vec3<float> sum{0, 0, 0};
+    for (const Vec2<float>& at : outline) sum += BilinearFilter::lookup(view, at);
+    return to_float3(sum / static_cast<float>(outline.size()));
+}
+
+std::shared_ptr<const EmissionTexture> part_of_image(const std::shared_ptr<const EmissionTexture>& image,
+                                                     const TexelRange& columns, const TexelRange& rows) {
+    const TexelRange all_columns{0, static_cast<double>(image->width)};
+    const TexelRange all_rows{0, static_cast<double>(image->height)};
+    if (columns == all_columns && rows == all_rows) return image;
+    return std::make_shared<const EmissionTexture>(crop(*image, columns, rows));
+}
+
+/// The least area in texels on which the coordinates are a map that has an inverse in single precision.
+constexpr double kLeastArea = 1e-3;
 
 /// The lights of one shape. Their radiance is the mean of the texels until finish() multiplies it.
 class TexturedPolygons {
@@ -195,61 +212,18 @@ private:
         set_texture(corners, lights_.back());
     }
 
-    /// Crops the image to the light, and finds the mean of its texels.
     void set_texture(const std::vector<TexturePoint>& corners, PolygonLight& light) {
-        const auto range = [&](double TexturePoint::*axis, int size) {
-            const auto [low, high] =
-                std::minmax_element(corners.begin(), corners.end(),
-                                    [&](const auto& a, const auto& b) { return a.*axis < b.*axis; });
-            return texel_range((*low).*axis, (*high).*axis, size);
-        };
-        const TexelRange columns = range(&TexturePoint::x, image_->width);
-        const TexelRange rows = range(&TexturePoint::y, image_->height);
-        if (std::max(columns.size(), rows.size()) > kMaxEmissionTextureSize ||
-            columns.size() * rows.size() > kMaxWindowTexels) {
+        ShownImage shown = show_image(image_, corners);
+        light.radiance = shown.emission.mean;
+        if (shown.is_far)
             built_.warnings.add(shape_.origin, "far texture coordinates",
                                 subject_of(shape_) +
                                     ": texture coordinates are so far outside of the image " +
                                     "that its mean colour is emitted");
-            light.radiance = mean_texel(*image_);
-            return;
-        }
-        std::vector<Vec2<float>> outline;
-        for (const TexturePoint& p : corners)
-            outline.push_back({columns.relative(p.x, image_->width), rows.relative(p.y, image_->height)});
-        std::shared_ptr<const EmissionTexture> texture = part_of_image(columns, rows);
-        if (!(area_of(outline) * columns.size() * rows.size() > kLeastArea)) {
-            light.radiance = mean_of_corners(*texture, outline);
-            return;
-        }
-        light.radiance = mean_over(*texture, outline);
-        if (++textured_ > kMaxTexturedPolygons) return;
+        if (shown.emission.texture == nullptr || ++textured_ > kMaxTexturedPolygons) return;
         light.texture = static_cast<std::int32_t>(built_.emission_textures.size());
-        TexturedEmission& emission = built_.emission_textures.emplace_back();
-        emission.texture = std::move(texture);
-        emission.mean = light.radiance;
-        for (std::size_t k = 0; k < outline.size(); ++k)
-            emission.coordinates[k] = {outline[k].x, outline[k].y};
+        built_.emission_textures.push_back(std::move(shown.emission));
     }
-
-    /// For lights on which the coordinates hardly change.
-    static Float3 mean_of_corners(const EmissionTexture& texture, std::span<const Vec2<float>> outline) {
-        const std::vector<Vec3<float>> texels = scaled(texture.texels, {1, 1, 1});
-        const TextureView<float> view{texels.data(), texture.width, texture.height};
-        Vec3<float> sum{0, 0, 0};
-        for (const Vec2<float>& at : outline) sum += BilinearFilter::lookup(view, at);
-        return to_float3(sum / static_cast<float>(outline.size()));
-    }
-
-    std::shared_ptr<const EmissionTexture> part_of_image(const TexelRange& columns, const TexelRange& rows) {
-        const TexelRange all_columns{0, static_cast<double>(image_->width)};
-        const TexelRange all_rows{0, static_cast<double>(image_->height)};
-        if (columns == all_columns && rows == all_rows) return image_;
-        return std::make_shared<const EmissionTexture>(crop(*image_, columns, rows));
-    }
-
-    /// The least area in texels on which the coordinates are a map that has an inverse in single precision.
-    static constexpr double kLeastArea = 1e-3;
 
     const ShapeDescription& shape_;
     const std::shared_ptr<const EmissionTexture>& image_;
@@ -259,6 +233,40 @@ private:
 };
 
 } // namespace
+
+ShownImage show_image(const std::shared_ptr<const EmissionTexture>& image,
+                      std::span<const TexturePoint> corners) {
+    const auto range = [&](double TexturePoint::*axis, int size) {
+        const auto [low, high] = std::minmax_element(
+            corners.begin(), corners.end(), [&](const auto& a, const auto& b) { return a.*axis < b.*axis; });
+        return texel_range((*low).*axis, (*high).*axis, size);
+    };
+    const TexelRange columns = range(&TexturePoint::x, image->width);
+    const TexelRange rows = range(&TexturePoint::y, image->height);
+    ShownImage shown;
+    shown.is_far = std::max(columns.size(), rows.size()) > kMaxEmissionTextureSize ||
+                   columns.size() * rows.size() > kMaxWindowTexels;
+    if (shown.is_far) {
+        shown.emission.mean = mean_texel(*image);
+        return shown;
+    }
+    std::vector<Vec2<float>> outline;
+    for (const TexturePoint& p : corners)
+        outline.push_back({columns.relative(p.x, image->width), rows.relative(p.y, image->height)});
+    std::shared_ptr<const EmissionTexture> texture = part_of_image(image, columns, rows);
+    if (!(area_of(outline) * columns.size() * rows.size() > kLeastArea)) {
+        shown.emission.mean = mean_of_corners(*texture, outline);
+        return shown;
+    }
+    shown.emission.mean = mean_over(*texture, outline);
+    shown.emission.texture = std::move(texture);
+    for (std::size_t k = 0; k < outline.size(); ++k)
+        shown.emission.coordinates[k] = {outline[k].x, outline[k].y};
+    const auto share = [](double texels, int size) { return static_cast<float>(texels / size); };
+    shown.emission.part_begin = {share(columns.begin, image->width), share(rows.begin, image->height)};
+    shown.emission.part_end = {share(columns.end, image->width), share(rows.end, image->height)};
+    return shown;
+}
 
 void add_textured_polygons(const ShapeDescription& shape, const FormatWords& words,
                            PolygonPartition&& partition, BuiltShape& built) {

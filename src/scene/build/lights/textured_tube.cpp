@@ -64,6 +64,20 @@ Float3 mean_over(const std::vector<Float3>& texels, const LineLight& light) {
 
 } // namespace
 
+TexturedEmission show_rows(const EmissionTexture& image, const LineLight& light) {
+    const Rows rows = rows_of(image);
+    std::vector<Float3> texels = reduced(rows.mean, std::min<std::size_t>(rows.mean.size(), kMaxLineTexels));
+    TexturedEmission shown;
+    shown.mean = mean_over(texels, light);
+    const bool is_uniform =
+        std::all_of(texels.begin(), texels.end(), [&](const Float3& t) { return t == texels.front(); });
+    if (is_uniform) return shown;
+    const int count = static_cast<int>(texels.size());
+    shown.texture = std::make_shared<const EmissionTexture>(
+        EmissionTexture{image.name, 1, count, std::move(texels), image.path});
+    return shown;
+}
+
 void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built) {
     const EmissionTexture& image = *shape.emission.texture;
@@ -76,8 +90,8 @@ void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, 
         built.warnings.add(shape.origin, "texture of tube",
                            subject_of(shape) + ": the " + std::to_string(image.height) +
                                " rows of the image are reduced to " + std::to_string(kMaxLineTexels));
-    std::vector<Float3> texels = reduced(rows.mean, std::min<std::size_t>(rows.mean.size(), kMaxLineTexels));
-    const Float3 mean = mean_over(texels, light);
+    const TexturedEmission shown = show_rows(image, light);
+    const Float3& mean = shown.mean;
     if (is_black(mean)) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because its image is black");
         return;
@@ -87,17 +101,13 @@ void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, 
     outwards.two_sided = false;
     const Float3 radiance =
         radiance_of(outwards, area(light) * luminance(to_double(mean)), words.emission, shape.origin);
-    for (const Float3& texel : texels)
-        check_radiance(per_channel_product(radiance, texel), words.emission, shape.origin);
     light.radiance = per_channel_product(radiance, mean);
-    const bool is_uniform =
-        std::all_of(texels.begin(), texels.end(), [&](const Float3& t) { return t == texels.front(); });
-    if (!is_uniform) {
+    check_radiance(light.radiance, words.emission, shape.origin);
+    if (shown.texture != nullptr) {
+        for (const Float3& texel : shown.texture->texels)
+            check_radiance(per_channel_product(radiance, texel), words.emission, shape.origin);
         light.texture = static_cast<std::int32_t>(built.emission_textures.size());
-        const int count = static_cast<int>(texels.size());
-        auto texture =
-            std::make_shared<const EmissionTexture>(EmissionTexture{image.name, 1, count, std::move(texels)});
-        built.emission_textures.push_back({std::move(texture), {}, mean});
+        built.emission_textures.push_back(shown);
     }
     built.lights.of<LineLight>() = {light};
 }

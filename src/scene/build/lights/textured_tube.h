@@ -11,4 +11,8 @@ namespace nusselt::scene {
 void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built);
 
+/// What a tube shows of an image: the means of rows, at most kMaxLineTexels of them.
+/// \returns an emission without a texture if all rows are alike
+TexturedEmission show_rows(const EmissionTexture& image, const LineLight& light);
+
 } // namespace nusselt::scene

@@ -2,10 +2,12 @@
 
 #include "scene/build/lights/profiled_light.h"
 #include "scene/build/lights/textured_tube.h"
+#include "scene/model/profiles/line_profile.h"
 #include "scene/model/vector_math.h"
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace nusselt::scene {
 
@@ -67,6 +69,15 @@ void check(const ShapeDescription& shape, const LineLight& light, const Location
         throw SceneError(shape.origin, subject + "the normal N must not be parallel to the line");
 }
 
+/// The axis of a profile: the normal of a strip, the direction that the shape gives, or that of z of its space.
+Float3 profile_axis(const PlacedShape& placed, const LineLight& light) {
+    if (light.model == TubeModel::strip) return light.normal;
+    const Tube* const tube = std::get_if<Tube>(&placed.shape->geometry);
+    const bool is_given = tube != nullptr && !is_black(tube->normal);
+    const Double3 axis = is_given ? to_double(tube->normal) : Double3{0, 0, 1};
+    return perpendicular_to_line(light, transform_vector(placed.world_from_object, axis));
+}
+
 } // namespace
 
 bool becomes_tube(const Geometry& geometry, const Emission& emission, const Transform& world_from_object) {
@@ -95,15 +106,20 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    if (has_profile(shape.emission))
-        built.warnings.add(shape.origin, "profiles of tubes",
-                           subject_of(shape) + ": tubes have no profile; it emits as much light alike in all "
-                                               "directions");
+    ProfileRequest profile = shape.emission.profile;
+    if (std::exchange(profile.honeycomb, {}) != HoneycombAngles{})
+        built.warnings.add(shape.origin, "honeycombs of tubes",
+                           subject_of(shape) + ": tubes have no honeycomb; it has no effect");
+    if (has_effect(profile)) {
+        light.normal = profile_axis(placed, light);
+        add_profiled_line(shape, words, light, built);
+        return built;
+    }
     if (shape.emission.texture != nullptr) {
         add_textured_tube(shape, words, light, built);
         return built;
     }
-    Emission outwards = without_profile(shape.emission);
+    Emission outwards = shape.emission;
     outwards.two_sided = false;
     light.radiance = radiance_of(outwards, area(light), words.emission, shape.origin);
     built.lights.of<LineLight>() = {light};

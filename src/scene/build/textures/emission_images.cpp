@@ -12,6 +12,7 @@ namespace {
 EmissionTexture take_texels(Texture texture) {
     EmissionTexture result;
     result.name = std::move(texture.name);
+    result.path = std::move(texture.path);
     result.width = texture.width;
     result.height = texture.height;
     const auto channels = static_cast<std::size_t>(texture.channels);

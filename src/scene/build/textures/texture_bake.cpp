@@ -218,6 +218,7 @@ Texture plain_image(const TextureNode& leaf, const TextureRequest& request, Text
     const int channels = is_grey ? 1 : 3;
     Texture texture;
     texture.name = image.name;
+    texture.path = image.path;
     texture.width = image.width;
     texture.height = image.height;
     texture.channels = channels;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace nusselt::scene {
@@ -81,11 +82,19 @@ bool is_read_by_extension(const std::filesystem::path& path) {
     return extension == ".exr" || extension == ".pfm";
 }
 
+/// The path in a form that is the same for all ways to write it, if there is one.
+std::string whole_path(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(path, error);
+    return (error ? path : whole).string();
+}
+
 } // namespace
 
 Texture decode_image(const ImageRequest& request, SceneBudget& budget, Warnings& warnings) {
     Texture texture;
     texture.name = request.path.filename().string();
+    texture.path = whole_path(request.path);
     try {
         if (is_read_by_extension(request.path)) {
             take_image(image::read_image(request.path), texture);

@@ -87,6 +87,7 @@ Geometry read_line(ShapeDirective& shape, Warnings&) {
     tube.model = read_tube_model(parameters);
     tube.radius = read_length(shape, "radius", 0);
     tube.radius_origin = parameters.location_of("radius");
+    if (const auto axis = parameters.point("profileaxis")) tube.normal = *axis;
     return tube;
 }
 

@@ -17,6 +17,7 @@ struct EnvironmentMapTexels {
     int size = 0;               ///< columns and rows: a power of two from 16 to 4096
     std::vector<Float3> texels; ///< finite and not negative
     Float3 mean = {0, 0, 0};    ///< over all directions
+    std::string path = {};      ///< of its file; empty for skies by formulas
 };
 
 /// A sky around the scene. Cameras see it where they see nothing else. It has the radiance `radiance` * t / mean where the map

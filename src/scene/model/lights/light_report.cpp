@@ -37,15 +37,22 @@ std::string profile_text(const Scene& scene, const LightList& list, std::size_t 
         const std::int32_t luminaire = points->lights[i].profile;
         return luminaire < 0 ? "" : ", " + scene.luminaires[static_cast<std::size_t>(luminaire)]->name;
     }
-    const auto* const polygons = dynamic_cast<const LightsOf<PolygonLight>*>(&list);
-    if (polygons == nullptr || polygons->lights[i].profile < 0) return "";
-    const EmissionProfile& profile =
-        *scene.emission_profiles[static_cast<std::size_t>(polygons->lights[i].profile)].profile;
+    std::int32_t index = -1;
+    if (const auto* const polygons = dynamic_cast<const LightsOf<PolygonLight>*>(&list))
+        index = polygons->lights[i].profile;
+    if (const auto* const lines = dynamic_cast<const LightsOf<LineLight>*>(&list))
+        index = lines->lights[i].profile;
+    if (index < 0) return "";
+    const EmissionProfile& profile = *scene.emission_profiles[static_cast<std::size_t>(index)].profile;
     std::string text;
     if (profile.luminaire != nullptr)
         text +=
             ", " + profile.luminaire->name + " without " + report_text(100 * profile.lost) + " % of its flux";
     if (profile.spread < kWidestSpread) text += ", spread " + report_text(profile.spread) + " degrees";
+    if (profile.honeycomb != HoneycombAngles{})
+        text += ", honeycomb " + report_text(profile.honeycomb.along) + " x " +
+                report_text(profile.honeycomb.across) + " degrees, which passes " +
+                report_text(100 * passed_flux(profile)) + " % of light that is alike in all directions";
     return text;
 }
 

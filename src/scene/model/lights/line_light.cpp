@@ -29,7 +29,7 @@ double corner_radius() {
 
 double axis_length(const LineLight& light) { return length(to_double(light.end) - to_double(light.start)); }
 
-/// Of a strip: from its middle line to its edge.
+/// Of a light with a normal: perpendicular to it and to the line, of the length of the radius.
 Double3 across(const LineLight& light) {
     const Double3 axis = to_double(light.end) - to_double(light.start);
     return (light.radius / length(axis)) * cross(to_double(light.normal), axis);
@@ -68,8 +68,8 @@ void Kind::add_to(const LineLight& light, Bounds& bounds) {
 
 // A new member does not compile until it is listed here.
 void Kind::hash(const LineLight& light, ContentHash& hash) {
-    const auto& [emitter, start, end, radius, radiance, model, normal, texture] = light;
-    hash.add(emitter, start, end, radius, radiance, model, normal, texture);
+    const auto& [emitter, start, end, radius, radiance, model, normal, texture, profile] = light;
+    hash.add(emitter, start, end, radius, radiance, model, normal, texture, profile);
 }
 
 Double3 Kind::flux_per_emission(const LineLight& light, double /*scene_radius*/) {
@@ -88,7 +88,7 @@ bool Kind::is_valid(const LineLight& light) {
 
 /// Radii grow with the cube root of the determinant.
 void Kind::transform(LineLight& light, const Transform& transform) {
-    if (light.model == TubeModel::strip) {
+    if (!is_black(light.normal)) {
         const Double3 axis = transform_vector(transform, to_double(light.end) - to_double(light.start));
         light.normal = to_float(normalized(cross(axis, transform_vector(transform, across(light)))));
     }
@@ -178,8 +178,10 @@ std::string Kind::describe(std::span<const LineLight> lights, double /*scene_rad
     const LineLight& first = lights.front();
     return (lights.size() > 1 ? std::to_string(lights.size()) + " lines, " : "") + "length " +
            report_text(extent) + " m, " + width_text(first) + " m, " +
-           (first.texture >= 0 ? "textured, mean radiance " : "radiance ") + report_text(first.radiance) +
-           " W/(sr m^2), " + power_text(lambertian_flux(sum), first.radiance);
+           (first.texture >= 0   ? "textured, mean radiance "
+            : first.profile >= 0 ? "mean radiance "
+                                 : "radiance ") +
+           report_text(first.radiance) + " W/(sr m^2), " + power_text(lambertian_flux(sum), first.radiance);
 }
 
 std::string Kind::rig_field(const LineLight& light) {
@@ -189,7 +191,8 @@ std::string Kind::rig_field(const LineLight& light) {
         return "\"strip\": " + ends + ", \"normal\": " + triple_text(light.normal) +
                ", \"width\": " + number_text(2 * light.radius) + "}";
     return "\"tube\": " + ends + ", \"radius\": " + number_text(light.radius) + ", " +
-           model_fields(light.model) + "}";
+           model_fields(light.model) +
+           (is_black(light.normal) ? "" : ", \"normal\": " + triple_text(light.normal)) + "}";
 }
 
 } // namespace nusselt::scene

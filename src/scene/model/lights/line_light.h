@@ -18,13 +18,17 @@ struct LineLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     Float3 start = {0, 0, 0};
     Float3 end = {0, 0, 0};
-    float radius = 0;            ///< [m]; of strips, half the width
-    Float3 radiance = {0, 0, 0}; ///< with a texture the mean over all that emits
+    float radius = 0; ///< [m]; of strips, half the width
+    Float3 radiance = {
+        0, 0, 0}; ///< with a texture the mean over all that emits, with a profile that over directions
     TubeModel model = TubeModel::solid;
-    Float3 normal = {0, 0, 0}; ///< of strips: unit, perpendicular to the line
+    /// Of strips and of lights with a profile, whose axis it is: unit, perpendicular to the line. Else 0.
+    Float3 normal = {0, 0, 0};
     /// Index into Scene::emission_textures, -1 for uniform radiance. Radiance varies along the line only: the texture has one
     /// column and up to kMaxLineTexels rows, from the start to the end. Caps have the radiance of the ends.
     std::int32_t texture = -1;
+    std::int32_t profile =
+        -1; ///< index into Scene::emission_profiles, -1 for the same radiance in all directions
 };
 
 /// The area of the lateral surface, or of both sides of a strip [m^2].

@@ -17,6 +17,7 @@ struct EmissionTexture {
     int width = 0;              ///< from 1 to kMaxEmissionTextureSize
     int height = 0;             ///< from 1 to kMaxEmissionTextureSize
     std::vector<Float3> texels; ///< finite and not negative
+    std::string path = {};      ///< of its file
 };
 
 inline constexpr int kMaxEmissionTextureSize = 1 << 14;
@@ -28,6 +29,8 @@ struct TexturedEmission {
     /// Of polygons, the texture coordinates of the vertices, in [0, 1]: an affine function of their positions.
     std::array<Float2, 8> coordinates = {};
     Float3 mean = {0, 0, 0}; ///< of the texture over the light
+    /// The part of the image of the file that the texture shows: from `part_begin` to `part_end` in texture coordinates.
+    Float2 part_begin = {0, 0}, part_end = {1, 1};
 };
 
 struct PolygonLight;

@@ -15,21 +15,35 @@ std::optional<double> read_power(ParameterList& parameters) {
     return power && *power > 0 ? power : std::nullopt;
 }
 
-/// Reads the extensions "ies", "iesangle" and "spread".
+/// Reads the extensions "ies", "iesangle", "spread" and "honeycomb".
 void read_profile(ParameterList& parameters, const std::filesystem::path& path, Luminaires& luminaires,
                   Emission& emission) {
     const auto fail = [&](std::string_view parameter, const std::string& message) {
         throw SceneError(parameters.location_of(parameter), "AreaLightSource: " + message);
     };
+    const auto check_angle = [&](std::string_view parameter, double angle) {
+        if (!(angle >= kNarrowestSpread && angle <= kWidestSpread))
+            fail(parameter, std::string(parameter) + " must be from " + to_text(kNarrowestSpread) + " to " +
+                                to_text(kWidestSpread) + " degrees, found " + to_text(angle));
+    };
     ProfileRequest& profile = emission.profile;
     profile.spread = parameters.real("spread", kWidestSpread);
-    if (!(profile.spread >= kNarrowestSpread && profile.spread <= kWidestSpread))
-        fail("spread", "spread must be from " + to_text(kNarrowestSpread) + " to " + to_text(kWidestSpread) +
-                           " degrees, found " + to_text(profile.spread));
-    if (!parameters.string("ies", "").empty()) {
+    check_angle("spread", profile.spread);
+    if (const std::vector<double> angles = parameters.reals("honeycomb"); !angles.empty()) {
+        if (angles.size() > 2) fail("honeycomb", "honeycomb must have one or two angles");
+        profile.honeycomb = {angles.front(), angles.back()};
+        check_angle("honeycomb", profile.honeycomb.along);
+        check_angle("honeycomb", profile.honeycomb.across);
+        if (profile.spread < kWidestSpread)
+            fail("honeycomb", "\"honeycomb\" and \"spread\" do not work together; keep one of them");
+    }
+    const bool has_ies = !parameters.string("ies", "").empty();
+    if (has_ies || profile.honeycomb != HoneycombAngles{}) {
         profile.angle = parameters.real("iesangle", 0);
         if (!(std::fabs(profile.angle) <= 3600))
             fail("iesangle", "iesangle must be from -3600 to 3600 degrees");
+    }
+    if (has_ies) {
         const Location location = parameters.location_of("ies");
         if (parameters.named_files().note(location, "IES file", path))
             profile.luminaire = luminaires.read(path);
@@ -38,9 +52,9 @@ void read_profile(ParameterList& parameters, const std::filesystem::path& path, 
             emission.radiance =
                 to_float((parameters.real("scale", 1) / brightness) * to_double(emission.radiance));
     }
-    const bool has_profile = profile.luminaire != nullptr || profile.spread < kWidestSpread;
-    if (has_profile && emission.texture != nullptr)
-        fail("filename", "an image and \"ies\" or \"spread\" do not work together; keep one of them");
+    if (has_effect(profile) && emission.texture != nullptr)
+        fail("filename",
+             "an image and \"ies\", \"spread\" or \"honeycomb\" do not work together; keep one of them");
 }
 
 } // namespace
