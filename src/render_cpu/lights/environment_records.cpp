@@ -34,6 +34,8 @@ struct PreparedMap {
 
 /// Columns and rows of tables of portals, at most.
 constexpr int kMostTexels = 1024;
+/// Texels of such a table whose parts have weights: 0.5 MB.
+constexpr int kMostRefinedTexels = 2048;
 
 /// A map with as many texels as tables can show: means over squares of texels, where it has more.
 struct ReducedMap {
@@ -70,13 +72,19 @@ struct PreparedPortal {
         const auto in_frame = [&](const Vec3<float>& direction) {
             return radiance(frame.to_world(direction));
         };
-        const auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
-                                                       texels, kLookups, sums.data(), colour.data());
+        auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
+                                                 texels, kLookups, sums.data(), colour.data());
+        // The edge of a sun is still steep in such texels.
+        refined.resize(kMostRefinedTexels);
+        weights.resize(refined.size() * RefinedTexels<float>::kSize);
+        refine_rectified_table<float>(in_frame, table, kMostRefinedTexels, refined.data(), weights.data());
         light = make_portal(frame, vertices.data(), static_cast<int>(vertices.size()), table);
     }
 
     std::vector<RectifiedSums> sums;
     std::vector<Vec3<float>> colour;
+    std::vector<std::int32_t> refined;
+    std::vector<float> weights;
     WindowedLight<float> light{};
 };
 
