@@ -300,7 +300,8 @@ TEST(PortalWithMap, CamerasSeeTheSkyThroughIt) {
     const View views[] = {
         {{0, 0, 0.5f}, {0.2f, 0.3f, 1}, true},       {{0.3f, 0.2f, 2}, {0.1f, 0.4f, 1}, true},
         {{0, 0, 0.5f}, {-0.1f, 0.3f, 1}, false},     {{0.2f, 0.2f, 1.5f}, {0.2f, 0.3f, 2}, false},
-        {{-9, 0.2f, 1.5f}, {-8, 0.2f, 1.5f}, false}, {{-9, 0.2f, 1}, {-8, 0.2f, 1}, false}};
+        {{-9, 0.2f, 1.5f}, {-8, 0.2f, 1.5f}, false}, {{-9, 0.2f, 0.5f}, {-8, 0.2f, 0.5f}, false},
+        {{-9, 0.2f, 1}, {-8, 0.2f, 1}, false}};
     for (const int map_size : {0, kPrecise}) {
         scene::Scene scene = make_scene(kRectangle, map_size);
         // Only what cameras see behind everything.

@@ -251,7 +251,7 @@ bool leaves_through(const render_cpu::EnvironmentRecord& record, const Vec3<floa
                     const Vec3<float>& direction) noexcept {
     const Vec3<float> normal = to_vec(record.normal);
     const float along = dot(normal, direction);
-    if (!(dot(normal, to_vec(record.corners[0]) - origin) / along > 0)) return false;
+    if (!(dot(normal, to_vec(record.corners[0]) - origin) * along > 0)) return false;
     // Edges wind around the ray, all in the same sense.
     for (std::int32_t k = 0; k < record.slots; ++k) {
         const Vec3<float> edge = to_vec(record.corners[record.slots + k]);
