@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the IES profiles of the scenes: scenes/profiles/street.ies and lantern.ies. No luminaire was measured for them.
+"""Writes the IES profiles of the scenes: scenes/profiles/street.ies, lantern.ies and downlight.ies. No luminaire was measured for them.
 
 street.ies is a luminaire beside a road, in the convention of roadway lighting: the half-planes of 0 and 180 degrees are along
 the road, that of 90 is towards it. Most light leaves at 60 degrees along the road and little behind the luminaire; above 80
-degrees it is dark. lantern.ies is an old lantern, which shines around and a little upward.
+degrees it is dark. lantern.ies is an old lantern, which shines around and a little upward. downlight.ies has a
+bright core and a dimmer ring, both with hard edges.
 
 Usage: make-profiles.py [FOLDER]
 """
@@ -32,6 +33,10 @@ def lantern(vertical, _):
     return smooth_step(vertical, 4, 40) * (1 - 0.85 * smooth_step(vertical, 80, 120)) * (1 - smooth_step(vertical, 130, 160))
 
 
+def downlight(vertical, _):
+    return (0.3 + 0.7 * (1 - smooth_step(vertical, 24, 27))) * (1 - smooth_step(vertical, 52, 56))
+
+
 def write(path, name, intensity, vertical, horizontal, candelas):
     lines = ["IESNA:LM-63-2002", "[TEST] computed by scripts/make-profiles.py", "[MANUFAC] Nusselt",
              f"[LUMINAIRE] {name}", "TILT=NONE",
@@ -53,6 +58,7 @@ def main():
     write(folder / "street.ies", "road luminaire", street, [2.5 * i for i in range(37)],
           [90 + 10 * i for i in range(19)], 900)
     write(folder / "lantern.ies", "lantern", lantern, [5.0 * i for i in range(37)], [0], 90)
+    write(folder / "downlight.ies", "downlight", downlight, [1.0 * i for i in range(91)], [0], 1500)
 
 
 if __name__ == "__main__":

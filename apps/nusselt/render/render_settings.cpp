@@ -105,10 +105,10 @@ void add_sampling_options(CLI::App& command, RenderOptions& options) {
             "diffuse+ltc with techniques for projected solid angles and --brdf material, else diffuse")
         ->group(kSamplingGroup);
     command
-        .add_option(
-            "--emission-sampling", options.emission_sampling,
-            "What samples of lights with a texture are proportional to: product, radiance times cosine or "
-            "lobe; measure, that of --technique alone")
+        .add_option("--emission-sampling", options.emission_sampling,
+                    "What samples of lights with a texture or a profile, and of portals, are proportional "
+                    "to: product, "
+                    "radiance times cosine or lobe; measure, that of --technique alone")
         ->transform(to_one_of(names_of(render::kEmissionSamplings)))
         ->default_str(std::string(name_of(render::RenderSettings().emission_sampling)))
         ->group(kSamplingGroup);

@@ -38,6 +38,30 @@ struct RectifiedSums {
     std::int64_t solid_angle; ///< rounded upwards
 };
 
+/// How radiance varies within a few texels, such as those with the edge of a sun. Their weight stays what it is.
+template <class T>
+struct RefinedTexels {
+    static constexpr int kParts = 8;              ///< of a texel, equally large along alpha and along beta
+    static constexpr int kSize = kParts * kParts; ///< weights of a texel
+
+    const std::int32_t* texel; ///< numbers of texels, row * width + column, increasing
+    const T* weight;           ///< kSize of each texel, row by row, with a mean of 1: all above zero
+    int count;                 ///< texels
+
+    /// The weights of the parts of a texel, null if it has none.
+    NUSSELT_HD const T* find(std::int32_t number) const noexcept {
+        int first = 0, end = count;
+        while (first < end) {
+            const int middle = (first + end) / 2;
+            if (texel[middle] < number)
+                first = middle + 1;
+            else
+                end = middle;
+        }
+        return first < count && texel[first] == number ? weight + kSize * first : nullptr;
+    }
+};
+
 /// Radiance in texels that are equally large in alpha and beta. All that it points to belongs to the caller.
 /// \tparam T float, double or long double.
 template <class T>
@@ -55,6 +79,7 @@ struct RectifiedTable {
     const RectifiedSums* sums; ///< size(width, height) of them, at index(i, j)
     const Vec3<T>*
         colour; ///< sums like those of radiance per channel times solid angle [W/m^2], with rounding errors
+    RefinedTexels<T> refined = {nullptr, nullptr, 0}; ///< refine_rectified_table() finds some
 
     /// Entries of each of the two arrays.
     NUSSELT_HD static constexpr int size(int width, int height) noexcept {
@@ -168,19 +193,20 @@ NUSSELT_HD inline Vec3<T> storable(const Vec3<T>& radiance) noexcept {
     return {within(radiance.x), within(radiance.y), within(radiance.z)};
 }
 
-/// The mean over lookups in a texel, weighted by solid angle.
+/// The mean over lookups in a texel or a part of one, weighted by solid angle.
+/// \param i, j, size lower corner and side of the square of lookups, in texels
 template <class T, class Radiance>
-NUSSELT_HD inline Vec3<T> mean_of_lookups(const RectifiedGrid<TableNumber<T>>& grid, int column, int row,
-                                          int lookups, const Radiance& radiance) noexcept {
+NUSSELT_HD inline Vec3<T> mean_of_lookups(const RectifiedGrid<TableNumber<T>>& grid, const TableNumber<T>& i,
+                                          const TableNumber<T>& j, const TableNumber<T>& size, int lookups,
+                                          const Radiance& radiance) noexcept {
     using Sum = TableNumber<T>;
     Vec3<Sum> sum{Sum(0), Sum(0), Sum(0)};
     Sum weights = Sum(0);
     for (int l = 0; l < lookups; ++l) {
-        const Sum q = grid.slope_y(static_cast<Sum>(row) +
-                                   (static_cast<Sum>(l) + Sum(0.5)) / static_cast<Sum>(lookups));
+        const Sum q = grid.slope_y(j + size * ((static_cast<Sum>(l) + Sum(0.5)) / static_cast<Sum>(lookups)));
         for (int k = 0; k < lookups; ++k) {
-            const Sum p = grid.slope_x(static_cast<Sum>(column) +
-                                       (static_cast<Sum>(k) + Sum(0.5)) / static_cast<Sum>(lookups));
+            const Sum p =
+                grid.slope_x(i + size * ((static_cast<Sum>(k) + Sum(0.5)) / static_cast<Sum>(lookups)));
             const Sum weight = rectified_jacobian(p, q);
             const Sum z = Sum(1) / sqrt(Sum(1) + p * p + q * q);
             const Vec3<T> direction{static_cast<T>(p * z), static_cast<T>(q * z), static_cast<T>(z)};
@@ -216,7 +242,8 @@ make_rectified_table(const Radiance& radiance, const RectifiedDomain<T>& domain,
     Sum largest = Sum(0);
     for (int j = 0; j < height; ++j) {
         for (int i = 0; i < width; ++i) {
-            const Vec3<T> mean = detail::mean_of_lookups<T>(grid, i, j, lookups, radiance);
+            const Vec3<T> mean = detail::mean_of_lookups<T>(grid, static_cast<Sum>(i), static_cast<Sum>(j),
+                                                            Sum(1), lookups, radiance);
             colour[index(i + 1, j + 1)] = mean;
             sums[index(i + 1, j + 1)].solid_angle =
                 quantised(grid.solid_angle(i, j) / whole_solid_angle * kWhole);
@@ -289,6 +316,77 @@ make_rectified_table(const Radiance& radiance, const RectifiedDomain<T>& domain,
         }
     }
     return table;
+}
+
+namespace detail {
+
+/// The mean radiance of a texel over that of the table, from its sums.
+template <class T>
+NUSSELT_HD inline T relative_mean(const RectifiedTable<T>& table, int i, int j) noexcept {
+    const RectifiedSums sums = table.sum(i, i + 1, j, j + 1);
+    return sums.solid_angle > 0 ? static_cast<T>(sums.weight) / static_cast<T>(sums.solid_angle) : T(0);
+}
+
+/// Whether much of the light comes from a texel that differs from a neighbour by more than a factor of two.
+template <class T>
+NUSSELT_HD inline bool is_edge(const RectifiedTable<T>& table, int column, int row) noexcept {
+    constexpr T kLeastShare = T(1e-4);
+    const RectifiedSums sums = table.sum(column, column + 1, row, row + 1);
+    if (!(static_cast<T>(sums.weight) > kLeastShare * RectifiedTable<T>::kWhole)) return false;
+    T least = relative_mean(table, column, row);
+    T largest = least;
+    for (int j = row - 1; j <= row + 1; ++j) {
+        for (int i = column - 1; i <= column + 1; ++i) {
+            if (i < 0 || i >= table.width || j < 0 || j >= table.height) continue;
+            least = min(least, relative_mean(table, i, j));
+            largest = max(largest, relative_mean(table, i, j));
+        }
+    }
+    return largest > T(2) * least;
+}
+
+} // namespace detail
+
+/// Finds how the radiance varies within the texels where that matters most: those with at least 1e-4 of the light that differ
+/// from a neighbour by more than a factor of two.
+/// \param radiance as of make_rectified_table().
+/// \param table    made by make_rectified_table(); it refers to texel and weight afterwards.
+/// \param most     refined texels, at most: those that come first. There are at most 10000.
+/// \param texel, weight `most` entries, and RefinedTexels<T>::kSize times as many.
+template <class T, class Radiance>
+NUSSELT_HD inline void refine_rectified_table(const Radiance& radiance, RectifiedTable<T>& table, int most,
+                                              std::int32_t* texel, T* weight) noexcept {
+    using Refined = RefinedTexels<T>;
+    using Sum = detail::TableNumber<T>;
+    constexpr int kParts = Refined::kParts;
+    constexpr int kLookups = 2;
+    const detail::RectifiedGrid<Sum> grid(table.width, table.height, broadcast<Sum>(table.domain.low),
+                                          broadcast<Sum>(table.domain.high));
+    int count = 0;
+    for (int j = 0; j < table.height; ++j) {
+        for (int i = 0; i < table.width && count < most; ++i) {
+            if (!detail::is_edge(table, i, j)) continue;
+            T* const parts = weight + Refined::kSize * count;
+            T largest = T(0);
+            for (int k = 0; k < Refined::kSize; ++k) {
+                const Sum size = Sum(1) / Sum(kParts);
+                parts[k] = mean_of_channels(detail::mean_of_lookups<T>(
+                    grid, static_cast<Sum>(i) + size * static_cast<Sum>(k % kParts),
+                    static_cast<Sum>(j) + size * static_cast<Sum>(k / kParts), size, kLookups, radiance));
+                largest = max(largest, parts[k]);
+            }
+            if (!(largest > T(0))) continue;
+            // What lookups missed is still found.
+            T sum = T(0);
+            for (int k = 0; k < Refined::kSize; ++k) {
+                parts[k] = max(parts[k] / largest, T(1e-3));
+                sum += parts[k];
+            }
+            for (int k = 0; k < Refined::kSize; ++k) parts[k] *= T(Refined::kSize) / sum;
+            texel[count++] = j * table.width + i;
+        }
+    }
+    table.refined = {texel, weight, count};
 }
 
 NUSSELT_NAMESPACE_END

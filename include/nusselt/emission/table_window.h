@@ -113,6 +113,104 @@ struct SumsBelow {
     }
 };
 
+/// The part of a refined texel in a window: which share of it lies where.
+template <class T>
+class RefinedPart {
+    using Refined = RefinedTexels<T>;
+    static constexpr int kParts = Refined::kParts;
+
+public:
+    /// \param weight  of the parts of the texel.
+    /// \param corner  of the texel, in offsets.
+    /// \param x, y    begin and end of what the window has of it.
+    NUSSELT_HD RefinedPart(const T* weight, const Vec2<T>& corner, const Vec2<T>& x,
+                           const Vec2<T>& y) noexcept
+        : weight_(weight) {
+        for (int k = 0; k <= kParts; ++k) {
+            const T at = static_cast<T>(k) / T(kParts);
+            line_x_[k] = k == 0 ? x.x : k == kParts ? x.y : min(max(corner.x + at, x.x), x.y);
+            line_y_[k] = k == 0 ? y.x : k == kParts ? y.y : min(max(corner.y + at, y.x), y.y);
+        }
+        for (int k = 0; k < kParts; ++k) {
+            T sum = T(0);
+            for (int l = 0; l < kParts; ++l) sum += height(l) * weight_[l * kParts + k];
+            column_[k] = sum * (line_x_[k + 1] - line_x_[k]);
+        }
+    }
+
+    /// An offset with a density in proportion to the weights.
+    NUSSELT_HD Vec2<T> sample(const Vec2<T>& u) const noexcept {
+        int k = 0, l = 0;
+        const auto of_column = [&](int i) { return column_[i]; };
+        const T x = choose(line_x_, u.x, of_column, k);
+        const auto of_row = [&](int i) { return height(i) * weight_[i * kParts + k]; };
+        const T y = choose(line_y_, u.y, of_row, l);
+        return {x, y};
+    }
+
+    /// The density over that of a uniform point.
+    NUSSELT_HD T density(const Vec2<T>& offset) const noexcept {
+        T total = T(0);
+        for (int k = 0; k < kParts; ++k) total += column_[k];
+        const T area = (line_x_[kParts] - line_x_[0]) * (line_y_[kParts] - line_y_[0]);
+        if (!(total > T(0)) || !(area > T(0))) return T(1);
+        return weight_[part_at(line_y_, offset.y) * kParts + part_at(line_x_, offset.x)] * (area / total);
+    }
+
+    /// The random numbers that lead to an offset.
+    NUSSELT_HD Vec2<T> invert(const Vec2<T>& offset) const noexcept {
+        const int k = part_at(line_x_, offset.x);
+        const auto of_column = [&](int i) { return column_[i]; };
+        const auto of_row = [&](int i) { return height(i) * weight_[i * kParts + k]; };
+        return {number(line_x_, offset.x, of_column), number(line_y_, offset.y, of_row)};
+    }
+
+private:
+    NUSSELT_HD T height(int l) const noexcept { return line_y_[l + 1] - line_y_[l]; }
+    NUSSELT_HD static int part_at(const T (&line)[kParts + 1], const T& offset) noexcept {
+        int k = 0;
+        for (int i = 1; i < kParts; ++i) k = offset >= line[i] ? i : k;
+        // An empty part begins where the next one does, or where the window ends.
+        while (k > 0 && !(line[k + 1] > line[k])) --k;
+        return k;
+    }
+    template <class Weight>
+    NUSSELT_HD static T choose(const T (&line)[kParts + 1], const T& u, const Weight& weight,
+                               int& part) noexcept {
+        T total = T(0);
+        for (int k = 0; k < kParts; ++k) total += weight(k);
+        if (!(total > T(0))) return line[0] + u * (line[kParts] - line[0]);
+        T rest = u * total;
+        part = -1;
+        for (int k = 0; k < kParts; ++k) {
+            const T here = weight(k);
+            if (!(here > T(0))) continue;
+            // Rounding may leave a rest after the last part.
+            if (part >= 0) rest -= weight(part);
+            part = k;
+            if (rest < here) break;
+        }
+        const T share = below_one(max(rest, T(0)) / weight(part));
+        return line[part] + share * (line[part + 1] - line[part]);
+    }
+    template <class Weight>
+    NUSSELT_HD static T number(const T (&line)[kParts + 1], const T& offset, const Weight& weight) noexcept {
+        const int part = part_at(line, offset);
+        T total = T(0), before = T(0);
+        for (int k = 0; k < kParts; ++k) {
+            before += k < part ? weight(k) : T(0);
+            total += weight(k);
+        }
+        const T size = line[part + 1] - line[part];
+        const T share = size > T(0) ? below_one(max((offset - line[part]) / size, T(0))) : T(0);
+        return total > T(0) ? below_one((before + share * weight(part)) / total) : T(0);
+    }
+
+    const T* weight_;
+    T line_x_[kParts + 1], line_y_[kParts + 1]; ///< of its parts, within the window
+    T column_[kParts];
+};
+
 } // namespace detail
 
 /// A rectangle of a table.
@@ -148,12 +246,12 @@ struct TableWindow {
         return max(table.mean_square * (s.square / s.weight) * (s.solid_angle / s.weight) - T(1), T(0));
     }
 
-    /// A point with a density in proportion to the weight of its texel, uniform in (alpha, beta) within it. The window has to
-    /// have a weight.
+    /// A point with a density in proportion to the weight of its texel, uniform in (alpha, beta) within it, or within parts of
+    /// refined texels. The window has to have a weight.
     NUSSELT_HD WindowPoint<T> sample(const Vec2<T>& u) const noexcept {
         constexpr T kBelowOne = 1 - std::numeric_limits<T>::epsilon() / 2;
-        const auto choose = [&](const TableAxis<T>& axis, const TexelInterval<T>& interval, const T& number,
-                                const auto& sum_to, int& texel) {
+        const auto choose = [&](const TexelInterval<T>& interval, const T& number, const auto& sum_to,
+                                int& texel) {
             const T target = min(number, kBelowOne) * sum_to(interval.last);
             int low = interval.first, high = interval.last;
             while (low < high) {
@@ -165,32 +263,39 @@ struct TableWindow {
             }
             texel = low;
             const T before = low > interval.first ? sum_to(low - 1) : T(0);
-            const T rest = (target - before) / max(sum_to(low) - before, std::numeric_limits<T>::min());
-            const Vec2<T> part = axis.part(interval, low);
-            return part.x + below_one(rest) * (part.y - part.x);
+            return below_one((target - before) / max(sum_to(low) - before, std::numeric_limits<T>::min()));
         };
         WindowPoint<T> point;
-        point.offset.x = choose(
-            across, columns, u.x, [&](int i) { return sum_to_column(i); }, point.i);
-        point.offset.y = choose(
-            along, rows, u.y, [&](int j) { return sum_to_row(point.i, j); }, point.j);
+        Vec2<T> rest;
+        rest.x = choose(
+            columns, u.x, [&](int i) { return sum_to_column(i); }, point.i);
+        rest.y = choose(
+            rows, u.y, [&](int j) { return sum_to_row(point.i, j); }, point.j);
+        const Vec2<T> x = across.part(columns, point.i);
+        const Vec2<T> y = along.part(rows, point.j);
+        point.offset = {x.x + rest.x * (x.y - x.x), y.x + rest.y * (y.y - y.x)};
+        if (const T* const parts = parts_of(point)) point.offset = refined_part(parts, point).sample(rest);
         return point;
     }
 
     /// The random numbers that lead to offsets in the window.
     NUSSELT_HD Vec2<T> invert(const Vec2<T>& offset) const noexcept {
-        const auto number = [](const TableAxis<T>& axis, const TexelInterval<T>& interval, int texel,
-                               const T& position, const auto& sum_to) {
+        const auto number = [](const TexelInterval<T>& interval, int texel, const T& rest,
+                               const auto& sum_to) {
             const T total = sum_to(interval.last);
             const T before = texel > interval.first ? sum_to(texel - 1) : T(0);
-            const Vec2<T> part = axis.part(interval, texel);
-            const T size = part.y - part.x;
-            const T rest = size > T(0) ? below_one((position - part.x) / size) : T(0);
             return total > T(0) ? below_one((before + rest * (sum_to(texel) - before)) / total) : T(0);
         };
+        const auto share = [](const Vec2<T>& part, const T& position) {
+            const T size = part.y - part.x;
+            return size > T(0) ? below_one((position - part.x) / size) : T(0);
+        };
         const WindowPoint<T> point = point_at(offset);
-        return {number(across, columns, point.i, offset.x, [&](int i) { return sum_to_column(i); }),
-                number(along, rows, point.j, offset.y, [&](int j) { return sum_to_row(point.i, j); })};
+        Vec2<T> rest{share(across.part(columns, point.i), offset.x),
+                     share(along.part(rows, point.j), offset.y)};
+        if (const T* const parts = parts_of(point)) rest = refined_part(parts, point).invert(offset);
+        return {number(columns, point.i, rest.x, [&](int i) { return sum_to_column(i); }),
+                number(rows, point.j, rest.y, [&](int j) { return sum_to_row(point.i, j); })};
     }
 
     /// The texel of the window with these offsets.
@@ -206,7 +311,9 @@ struct TableWindow {
         constexpr T kShare = T(1) / RectifiedTable<T>::kWhole;
         const T weight = kShare * static_cast<T>(weight_of({{point.i, point.j}, {point.i + 1, point.j + 1}}));
         const T total = sums().weight;
-        return total > T(0) ? weight / total : T(0);
+        if (!(total > T(0))) return T(0);
+        const T* const parts = parts_of(point);
+        return weight / total * (parts != nullptr ? refined_part(parts, point).density(point.offset) : T(1));
     }
 
     /// The smallest rectangle of whole texels with all of the weight of those that the window meets.
@@ -245,6 +352,20 @@ private:
     }
     NUSSELT_HD std::int64_t weight_of(const TexelRectangle& r) const noexcept {
         return table.sum(r.begin[0], r.end[0], r.begin[1], r.end[1]).weight;
+    }
+
+    /// The weights of the parts of a texel, null if it has none.
+    NUSSELT_HD const T* parts_of(const WindowPoint<T>& point) const noexcept {
+        return table.refined.count > 0
+                   ? table.refined.find(static_cast<std::int32_t>(point.j * table.width + point.i))
+                   : nullptr;
+    }
+    NUSSELT_HD detail::RefinedPart<T> refined_part(const T* parts,
+                                                   const WindowPoint<T>& point) const noexcept {
+        return {parts,
+                {across.edge(point.i), along.edge(point.j)},
+                across.part(columns, point.i),
+                along.part(rows, point.j)};
     }
 
     /// The weight of columns from one to before another, all of them whole.

@@ -11,7 +11,7 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// The words of a table. Sizes are unsigned, floats are stored as their bits, and integers of 64 bits as two words, the lower
-/// half first.
+/// half first. Refined texels are left out: shaders take radiance for constant in them.
 struct RectifiedTableWords {
     // Where each part begins.
     static constexpr int kWidth = 0;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TABLE_WINDOW_GLSL
 #define NUSSELT_EMISSION_TABLE_WINDOW_GLSL
-// Follows include/nusselt/emission/table_window.h @ ad63b8c23a94
+// Follows include/nusselt/emission/table_window.h @ 2403d08bc661
 /// Windows of a rectified table: their sums, their lit part, and samples in proportion to the table. Twin of
 /// include/nusselt/emission/table_window.h, where positions are explained. Sums of cells are those of their windows:
 /// C++ takes differences of sums in double.

@@ -1,5 +1,6 @@
 #include "render_cpu/lights/environment_records.h"
 
+#include "render_cpu/lights/polygon_corners.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
@@ -33,6 +34,8 @@ struct PreparedMap {
 
 /// Columns and rows of tables of portals, at most.
 constexpr int kMostTexels = 1024;
+/// Texels of such a table whose parts have weights: 0.5 MB.
+constexpr int kMostRefinedTexels = 2048;
 
 /// A map with as many texels as tables can show: means over squares of texels, where it has more.
 struct ReducedMap {
@@ -55,7 +58,7 @@ struct ReducedMap {
 /// A portal for points on one side of it.
 struct PreparedPortal {
     /// \param frame    its normal leads away from these points
-    /// \param map_size columns and rows of the map, 1 without one
+    /// \param map_size columns and rows of the map
     /// \param radiance of a direction in world space
     template <class Radiance>
     PreparedPortal(const std::vector<Vec3<float>>& vertices, const Frame<float>& frame, int map_size,
@@ -69,13 +72,19 @@ struct PreparedPortal {
         const auto in_frame = [&](const Vec3<float>& direction) {
             return radiance(frame.to_world(direction));
         };
-        const auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
-                                                       texels, kLookups, sums.data(), colour.data());
+        auto table = make_rectified_table<float>(in_frame, RectifiedDomain<float>::hemisphere(), texels,
+                                                 texels, kLookups, sums.data(), colour.data());
+        // The edge of a sun is still steep in such texels.
+        refined.resize(kMostRefinedTexels);
+        weights.resize(refined.size() * RefinedTexels<float>::kSize);
+        refine_rectified_table<float>(in_frame, table, kMostRefinedTexels, refined.data(), weights.data());
         light = make_portal(frame, vertices.data(), static_cast<int>(vertices.size()), table);
     }
 
     std::vector<RectifiedSums> sums;
     std::vector<Vec3<float>> colour;
+    std::vector<std::int32_t> refined;
+    std::vector<float> weights;
     WindowedLight<float> light{};
 };
 
@@ -83,6 +92,7 @@ struct Environments {
     std::vector<EnvironmentRecord> lights;
     std::deque<PreparedMap> maps;
     std::deque<PreparedPortal> portals;
+    std::deque<PolygonCorners> corners;
 };
 
 /// The frame of a portal, with its first axis along the longest side: rectangles then have both along their sides.
@@ -99,28 +109,40 @@ Frame<float> frame_of(const std::vector<Vec3<float>>& vertices) {
     return {t, cross(n, t), n};
 }
 
-void add_portal(const scene::EnvironmentLight& light, const PreparedMap* map, Environments& environments,
+void add_tables(const scene::EnvironmentLight& light, const PreparedMap& map, Environments& environments,
                 EnvironmentRecord& record) {
     std::vector<Vec3<float>> vertices;
     for (const scene::Float3& vertex : light.portal) vertices.push_back(scene::to_vec(vertex));
-    const auto add_sides = [&](int map_size, const auto& radiance) {
-        const Frame<float> frame = frame_of(vertices);
-        const Frame<float> back{frame.t, -frame.b, -frame.n};
-        record.portal[0] = &environments.portals.emplace_back(vertices, frame, map_size, radiance).light;
-        record.portal[1] = &environments.portals.emplace_back(vertices, back, map_size, radiance).light;
-    };
-    if (map == nullptr) {
-        add_sides(1, [&](const Vec3<float>& /*w*/) { return scene::to_vec(light.radiance); });
-        return;
-    }
-    const ReducedMap reduced(map->light.radiance);
+    const Frame<float> frame = frame_of(vertices);
+    const Frame<float> back{frame.t, -frame.b, -frame.n};
+    const ReducedMap reduced(map.light.radiance);
     const auto along = [](const scene::Float3& axis, const Vec3<float>& w) {
         return dot(scene::to_vec(axis), w);
     };
-    add_sides(reduced.radiance.size, [&](const Vec3<float>& w) {
+    const auto radiance = [&](const Vec3<float>& w) {
         return reduced.radiance.lookup(
             Vec3<float>{along(light.x_axis, w), along(light.y_axis, w), along(light.z_axis, w)});
-    });
+    };
+    const int size = reduced.radiance.size;
+    record.portal[0] = &environments.portals.emplace_back(vertices, frame, size, radiance).light;
+    record.portal[1] = &environments.portals.emplace_back(vertices, back, size, radiance).light;
+}
+
+EnvironmentRecord record_of(const scene::EnvironmentLight& light, const PreparedMap* map,
+                            Environments& environments) {
+    EnvironmentRecord record{};
+    record.x_axis = light.x_axis;
+    record.y_axis = light.y_axis;
+    record.z_axis = light.z_axis;
+    record.radiance = light.radiance;
+    if (map != nullptr) record.map = &map->light;
+    if (light.portal.size() == 0) return record;
+    const PolygonCorners& corners = environments.corners.emplace_back(light.portal);
+    record.corners = corners.corners.data();
+    record.normal = corners.normal;
+    record.slots = corners.slots;
+    if (map != nullptr) add_tables(light, *map, environments, record);
+    return record;
 }
 
 } // namespace
@@ -135,13 +157,7 @@ std::shared_ptr<const void> make_environment_records(const scene::Scene& scene,
         if (light.map >= 0)
             map = &environments->maps.emplace_back(
                 *scene.environment_maps.at(static_cast<std::size_t>(light.map)), light.radiance);
-        environments->lights.push_back({light.x_axis,
-                                        light.y_axis,
-                                        light.z_axis,
-                                        light.radiance,
-                                        map == nullptr ? nullptr : &map->light,
-                                        {nullptr, nullptr}});
-        if (light.portal.size() > 0) add_portal(light, map, *environments, environments->lights.back());
+        environments->lights.push_back(record_of(light, map, *environments));
     }
     return {environments, environments->lights.data()};
 }

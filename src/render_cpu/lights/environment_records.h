@@ -15,8 +15,12 @@ struct EnvironmentRecord {
     scene::Float3 x_axis, y_axis, z_axis; ///< of the map, in world space
     scene::Float3 radiance;               ///< [W/(sr m^2)]; the mean if there is a map
     const void* map; ///< an EnvironmentMap<float, kEnvironmentCells>; null for the same radiance everywhere
-    /// What comes through the portal for points on both sides: a WindowedLight<float> each, or null without a portal. The
-    /// normal of the first one leads to the points of the second one.
+    /// The portal in the form of ConvexPolygon<float, 4> or <float, 8>: its vertices and then its edges.
+    const scene::Float3* corners;
+    scene::Float3 normal;
+    std::int32_t slots; ///< room for vertices, and for as many edges: 4 or 8; 0 without a portal
+    /// What comes through the portal for points on both sides: a WindowedLight<float> each, or null without a portal or without
+    /// a map. The normal of the first one leads to the points of the second one.
     const void* portal[2];
 };
 

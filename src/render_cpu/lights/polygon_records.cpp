@@ -1,12 +1,10 @@
 #include "render_cpu/lights/polygon_records.h"
 
 #include "render_cpu/lights/float_count.h"
+#include "render_cpu/lights/polygon_corners.h"
 #include "render_cpu/lights/polygon_profiles.h"
 #include "render_cpu/lights/polygon_textures.h"
-#include "scene/model/library_vector.h"
 #include "scene/model/scene.h"
-
-#include <nusselt/geometry/convex_polygon.h>
 
 #include <stdexcept>
 #include <string>
@@ -16,9 +14,6 @@ namespace nusselt::render_cpu {
 
 namespace {
 
-/// How many vertices the record of a polygon has room for.
-std::int32_t slots_of(const scene::PolygonLight& light) { return light.vertices.size() <= 4 ? 4 : 8; }
-
 struct PolygonArrays {
     std::vector<PolygonRecord> lights;
     std::vector<scene::Float3> corners;
@@ -26,18 +21,6 @@ struct PolygonArrays {
     PolygonProfiles profiles;
     PolygonRecords view{};
 };
-
-template <int N>
-void add_corners(const scene::PolygonVertices& vertices, PolygonRecord& record,
-                 std::vector<scene::Float3>& all_corners) {
-    Vec3<float> corners[N];
-    for (std::size_t j = 0; j < vertices.size(); ++j) corners[j] = to_vec(vertices[j]);
-    const auto polygon = make_polygon<N>(corners, static_cast<int>(vertices.size()));
-    record.first_corner = static_cast<std::uint32_t>(all_corners.size());
-    for (int j = 0; j < N; ++j) all_corners.push_back(scene::to_float3(polygon.vertex[j]));
-    for (int j = 0; j < N; ++j) all_corners.push_back(scene::to_float3(polygon.edge[j]));
-    record.normal = scene::to_float3(polygon.normal);
-}
 
 PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& light,
                           std::vector<scene::Float3>& all_corners) {
@@ -47,11 +30,11 @@ PolygonRecord make_record(const scene::Scene& scene, const scene::PolygonLight& 
                                  ": polygonal lights must have at least 3 vertices, found " +
                                  std::to_string(count));
     PolygonRecord record{};
-    record.slots = slots_of(light);
-    if (record.slots == 4)
-        add_corners<4>(light.vertices, record, all_corners);
-    else
-        add_corners<8>(light.vertices, record, all_corners);
+    const PolygonCorners corners(light.vertices);
+    record.slots = corners.slots;
+    record.first_corner = static_cast<std::uint32_t>(all_corners.size());
+    all_corners.insert(all_corners.end(), corners.corners.begin(), corners.corners.end());
+    record.normal = corners.normal;
     record.radiance = light.radiance;
     record.two_sided = light.two_sided ? 1 : 0;
     record.texture = -1;
@@ -66,7 +49,7 @@ std::shared_ptr<const void> make_polygon_records(const scene::Scene& scene, cons
     if (polygons == nullptr) return nullptr;
     std::size_t corners = 0;
     for (const scene::PolygonLight& light : polygons->lights)
-        corners += 2 * static_cast<std::size_t>(slots_of(light));
+        corners += 2 * static_cast<std::size_t>(slots_of(light.vertices));
     check_float_count(3 * corners, "lights");
     const auto arrays = std::make_shared<PolygonArrays>();
     arrays->corners.reserve(corners);

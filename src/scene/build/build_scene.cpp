@@ -1,6 +1,7 @@
 #include "scene/build/build_scene.h"
 
 #include "scene/build/build_shape.h"
+#include "scene/build/lights/dark_portals.h"
 #include "scene/build/parallel.h"
 #include "scene/build/textures/surface_formula.h"
 #include "scene/build/textures/texture_bake.h"
@@ -229,6 +230,7 @@ Scene build_scene(SceneDescription description) {
     BuiltShape shapes = join(std::move(built), description.words.instance);
     add_light_sources(description.light_sources, scene.textures, shapes);
     collect_warnings(shapes, description.warnings);
+    const std::vector<Location> environments = environment_origins(shapes);
     take_shapes(std::move(shapes), description.sources.front().path, scene);
     add_instances(description, placed.objects, triangle_counts, scene);
     if (scene.triangles.empty() && scene.lights.empty())
@@ -237,6 +239,7 @@ Scene build_scene(SceneDescription description) {
     scene.files = {description.sources.front().path};
     scene.files.insert(scene.files.end(), files.begin(), files.end());
     scene.radius = scene_radius(scene);
+    warn_of_dark_portals(scene, environments, description.warnings);
     scene.warnings = description.warnings.lines();
     return scene;
 }

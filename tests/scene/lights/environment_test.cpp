@@ -124,6 +124,33 @@ TEST_F(Environments, PortalsAreInTheWorld) {
     }
 }
 
+/// Light comes from above only.
+TEST_F(Environments, DarkPortalsGiveAWarning) {
+    write_picture("upper.pfm", 64, 32, [](int, int j) {
+        const float l = j < 16 ? 1.0f : 0.0f;
+        return Float3{l, l, l};
+    });
+    const std::string shape = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0.5]\n";
+    const std::string object = "ObjectBegin \"o\"\n" + shape + "ObjectEnd\nObjectInstance \"o\"\n";
+    const auto with_portal = [&](const std::string& z, const std::string& surfaces, const std::string& turn) {
+        const std::string at = " " + z + " ";
+        return load("Camera \"perspective\"\nWorldBegin\nAttributeBegin\n" + turn +
+                    "LightSource \"infinite\" \"string filename\" \"upper.pfm\" \"point3 portal\" [0 0" + at +
+                    "3 0" + at + "3 2" + at + "0 2" + at + "]\nAttributeEnd\n" + surfaces);
+    };
+    for (const std::string& surfaces : {shape, object}) {
+        EXPECT_TRUE(with_portal("2", surfaces, "").warnings.empty());
+        EXPECT_TRUE(with_portal("0.2", surfaces, "").warnings.empty());
+        EXPECT_EQ(
+            warning(with_portal("-1", surfaces, "")),
+            "scene.pbrt:4: portal: no surface receives light through it, because the environment is black "
+            "on the side without surfaces");
+    }
+    // Upside down, it comes from below.
+    EXPECT_TRUE(with_portal("-1", shape, "Rotate 180 1 0 0\n").warnings.empty());
+    EXPECT_EQ(with_portal("2", shape, "Rotate 180 1 0 0\n").warnings.size(), 1u);
+}
+
 TEST_F(Environments, PortalsMoveWithTheirLight) {
     using Kind = LightKind<EnvironmentLight>;
     EnvironmentLight light{.radiance = {1, 2, 3}, .portal = {{0, 0, 1}, {3, 0, 1}, {3, 2, 1}, {0, 2, 1}}};

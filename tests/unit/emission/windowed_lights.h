@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -25,6 +26,22 @@ struct StoredTable {
           colour(sums.size()),
           table(nusselt::make_rectified_table<T>(radiance, domain, width, height, lookups, sums.data(),
                                                  colour.data())) {}
+};
+
+/// A table with refined texels.
+template <class T>
+struct RefinedTable : StoredTable<T> {
+    static constexpr int kMost = 10000;
+    std::vector<std::int32_t> texels;
+    std::vector<T> weights;
+
+    template <class Radiance>
+    RefinedTable(const Radiance& radiance, int size)
+        : StoredTable<T>(radiance, nusselt::RectifiedDomain<T>::hemisphere(), size, size, 2),
+          texels(kMost),
+          weights(static_cast<std::size_t>(kMost) * nusselt::RefinedTexels<T>::kSize) {
+        nusselt::refine_rectified_table<T>(radiance, this->table, kMost, texels.data(), weights.data());
+    }
 };
 
 /// Grey values of texels over the hemisphere.

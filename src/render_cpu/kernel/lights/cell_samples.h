@@ -31,6 +31,14 @@ inline bool takes_products(const render_cpu::RenderJob& job) noexcept {
             job.technique == render::Technique::projected_solid_angle_biased);
 }
 
+/// The same for windows of tables by direction. The optimal heuristic needs densities whose integral is one. Where horizon or
+/// outline cut a texel, it is less.
+inline bool takes_windowed_products(const render_cpu::RenderJob& job) noexcept {
+    const bool needs_whole_densities =
+        job.strategies == render::Strategies::diffuse_ltc && job.mis == render::Mis::optimal;
+    return takes_products(job) && !needs_whole_densities;
+}
+
 /// A technique for each shading point of a packet.
 template <class Technique>
 class LaneTechniques {

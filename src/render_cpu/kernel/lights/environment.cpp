@@ -1,7 +1,7 @@
 // Environments: light from infinity in all directions, or in those that a portal lets through.
 
 #include "render_cpu/kernel/lights/cell_samples.h"
-#include "render_cpu/lights/environment_records.h"
+#include "render_cpu/kernel/lights/portal_light.h"
 
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/windowed_polygon.h>
@@ -10,32 +10,8 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-using Map = EnvironmentMap<float, render_cpu::kEnvironmentCells>;
 using DiffuseCells = EnvironmentCosine<float, render_cpu::kEnvironmentCells>;
 using SpecularCells = EnvironmentLtc<float, render_cpu::kEnvironmentCells>;
-
-const render_cpu::EnvironmentRecord& environment_record(const render_cpu::LightSet& lights,
-                                                        std::int32_t index) noexcept {
-    return static_cast<const render_cpu::EnvironmentRecord*>(lights.records)[index];
-}
-
-const Map& map_of(const render_cpu::EnvironmentRecord& record) noexcept {
-    return *static_cast<const Map*>(record.map);
-}
-
-/// A direction of world space in the space of the map.
-template <class T>
-Vec3<T> to_map(const render_cpu::EnvironmentRecord& record, const Vec3<T>& direction) noexcept {
-    const auto along = [&](const scene::Float3& axis) { return dot(broadcast<T>(to_vec(axis)), direction); };
-    return {along(record.x_axis), along(record.y_axis), along(record.z_axis)};
-}
-
-/// The radiance that arrives from a direction of world space.
-Vec3<float> radiance_towards(const render_cpu::EnvironmentRecord& record,
-                             const Vec3<float>& direction) noexcept {
-    if (record.map == nullptr) return to_vec(record.radiance);
-    return map_of(record).radiance.lookup(to_map(record, direction));
-}
 
 /// All directions. Shadow rays end beyond the scene, from any of its points.
 struct Sky {
@@ -155,7 +131,7 @@ public:
     }
 
 private:
-    const Map& map_;
+    const SkyMap& map_;
     Frame<Real> frame_;
     float distance_; ///< beyond the scene, from any of its points [m]
 };
@@ -230,26 +206,38 @@ void add_mapped(render_cpu::LitPacket& packet, const render_cpu::LightSet& light
         light);
 }
 
+template <int N>
+render_cpu::AddLight mapped_portal(const render_cpu::RenderJob& job) noexcept {
+    if (job.technique == render::Technique::ltc_analytic) return &add_through_portal<&add_cell_integrals>;
+    if (takes_windowed_products(job)) {
+        if (job.strategies == render::Strategies::diffuse) return &add_through_portal<&add_by_cells>;
+        if (job.strategies == render::Strategies::diffuse_ltc) return &add_through_portal<&add_by_cell_pair>;
+    }
+    return portal_points<N>(job);
+}
+
 void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render_cpu::kMostShapes]) noexcept {
     if (job.technique == render::Technique::ltc_analytic) {
         add[0] = &add_uniform_analytically;
         add[1] = &add_mapped<&add_cell_integrals>;
-        add[2] = &add_through_portal<&add_cell_integrals>;
     } else if (job.strategies == render::Strategies::diffuse_ltc) {
         add[0] = &add_by_pair<UniformSky, SkyPair>;
         add[1] = &add_mapped<&add_by_cell_pair>;
-        add[2] = &add_through_portal<&add_by_cell_pair>;
     } else {
         add[0] = &add_uniform_by_cosine;
         add[1] = &add_mapped<&add_by_cells>;
-        add[2] = &add_through_portal<&add_by_cells>;
     }
+    add[2] = portal_points<4>(job);
+    add[3] = portal_points<8>(job);
+    add[4] = mapped_portal<4>(job);
+    add[5] = mapped_portal<8>(job);
 }
 
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
     const render_cpu::EnvironmentRecord& record = environment_record(lights, index);
-    if (record.portal[0] != nullptr) return 2;
-    return record.map == nullptr ? 0 : 1;
+    const bool has_map = record.map != nullptr;
+    if (record.slots == 0) return has_map ? 1 : 0;
+    return (record.slots == 4 ? 2 : 3) + (has_map ? 2 : 0);
 }
 
 /// Rays do not hit it.
@@ -259,23 +247,24 @@ scene::Float3 emission(const render_cpu::LightSet& /*lights*/, std::int32_t /*in
 }
 
 /// Whether a ray leaves through a portal.
-bool leaves_through(const WindowedLight<float>& portal, const Vec3<float>& origin,
+bool leaves_through(const render_cpu::EnvironmentRecord& record, const Vec3<float>& origin,
                     const Vec3<float>& direction) noexcept {
-    const Frame<float>& frame = portal.plane.frame;
-    const Vec3<float> to_corner = portal.plane.corner - origin;
-    const float along = dot(frame.n, direction);
-    const float distance = dot(frame.n, to_corner) / along;
-    if (!(distance > 0)) return false;
-    const Vec3<float> hit = frame.to_local(distance * direction - to_corner);
-    const Vec2<float> at{hit.x, hit.y};
-    return portal.outline.contains(at, at);
+    const Vec3<float> normal = to_vec(record.normal);
+    const float along = dot(normal, direction);
+    if (!(dot(normal, to_vec(record.corners[0]) - origin) * along > 0)) return false;
+    // Edges wind around the ray, all in the same sense.
+    for (std::int32_t k = 0; k < record.slots; ++k) {
+        const Vec3<float> edge = to_vec(record.corners[record.slots + k]);
+        const Vec3<float> moment = cross(to_vec(record.corners[k]) - origin, edge);
+        if (!(dot(direction, moment) * along >= 0)) return false;
+    }
+    return true;
 }
 
 scene::Float3 background(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,
                          const scene::Float3& direction) noexcept {
     const render_cpu::EnvironmentRecord& record = environment_record(lights, index);
-    const auto* const portal = static_cast<const WindowedLight<float>*>(record.portal[0]);
-    if (portal != nullptr && !leaves_through(*portal, to_vec(origin), to_vec(direction))) return {0, 0, 0};
+    if (record.slots > 0 && !leaves_through(record, to_vec(origin), to_vec(direction))) return {0, 0, 0};
     const Vec3<float> radiance = radiance_towards(record, normalize(to_vec(direction)));
     return {radiance.x, radiance.y, radiance.z};
 }

@@ -1,20 +1,14 @@
 #pragma once
 /// Polygonal lights with room for N vertices.
 
-#include "render_cpu/kernel/analytic.h"
 #include "render_cpu/kernel/lights/luminaire.h"
+#include "render_cpu/kernel/lights/stored_polygon.h"
 #include "render_cpu/kernel/reflected_light.h"
 #include "render_cpu/kernel/single_lane.h"
-#include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/polygon_records.h"
 
 #include <nusselt/emission/texture.h>
 #include <nusselt/emission/texture_plane.h>
-#include <nusselt/geometry/convex_polygon.h>
-#include <nusselt/ltc/polygon_shading.h>
-#include <nusselt/sampling/polygon_area.h>
-#include <nusselt/sampling/polygon_projected_solid_angle.h>
-#include <nusselt/sampling/polygon_solid_angle.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -144,22 +138,14 @@ private:
 
 /// A kind of light as point_samples.h describes it.
 template <int N>
-struct PolygonLight {
+struct PolygonLight : PolygonTechniques<N> {
     using Shape = LocalPolygon<N>;
-    using Technique = render::Technique;
 
     /// In world space.
     static ConvexPolygon<float, N> world(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
         const auto& records = *static_cast<const render_cpu::PolygonRecords*>(lights.records);
         const render_cpu::PolygonRecord& record = records.lights[index];
-        const scene::Float3* corners = records.corners + record.first_corner;
-        ConvexPolygon<float, N> world;
-        for (int j = 0; j < N; ++j) {
-            world.vertex[j] = to_vec(corners[j]);
-            world.edge[j] = to_vec(corners[N + j]);
-        }
-        world.normal = to_vec(record.normal);
-        return world;
+        return stored_polygon<N>(records.corners + record.first_corner, record.normal);
     }
 
     static LocalLight<Shape> local(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
@@ -173,34 +159,11 @@ struct PolygonLight {
         LaneMask lit = reflected.lanes() & !reflected.on_light(number);
         // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.
         if (record.two_sided == 0) lit &= !(dot(local.normal, local.vertex[0]) >= Real(0));
-        Real highest = local.vertex[0].z;
-        for (int j = 1; j < N; ++j) highest = max(highest, local.vertex[j].z);
-        lit &= !(highest <= Real(0));
+        lit &= !(highest_vertex(local) <= Real(0));
         return {{local, texture_of(lights, index), profile_of(lights, index)},
                 lit,
                 broadcast<Real>(to_vec(record.radiance)),
                 static_cast<std::uint32_t>(number)};
-    }
-
-    static auto technique(TechniqueTag<Technique::area>, const Shape& shape) noexcept {
-        return PolygonArea<Real, N>(shape);
-    }
-    static auto technique(TechniqueTag<Technique::solid_angle>, const Shape& shape) noexcept {
-        return PolygonSolidAngle<Real, N>(shape);
-    }
-    static auto technique(TechniqueTag<Technique::clipped_solid_angle>, const Shape& shape) noexcept {
-        return PolygonClippedSolidAngle<Real, N>(shape);
-    }
-    static auto technique(TechniqueTag<Technique::projected_solid_angle>, const Shape& shape) noexcept {
-        return PolygonProjectedSolidAngle<Real, N>(shape);
-    }
-    static auto technique(TechniqueTag<Technique::projected_solid_angle_biased>,
-                          const Shape& shape) noexcept {
-        return PolygonProjectedSolidAngleBiased<Real, N>(shape);
-    }
-
-    static LobeIntegrals integrals(const Shape& shape, const Ltc<Real>& lobe) noexcept {
-        return {diffuse_integral(shape), lobe_integral<BothHorizons>(shape, lobe)};
     }
 };
 

@@ -123,11 +123,9 @@ template <int N>
 render_cpu::AddLight choose_technique(const render_cpu::RenderJob& job) noexcept {
     using render::Strategies;
     if (job.technique == render::Technique::ltc_analytic) return &add_profiled<N, &add_cell_integrals>;
-    if (takes_products(job)) {
+    if (takes_windowed_products(job)) {
         if (job.strategies == Strategies::diffuse) return &add_profiled_samples<N, &add_by_cells>;
-        // The optimal heuristic needs densities whose integral is one. Where an outline cuts a texel it is less.
-        if (job.strategies == Strategies::diffuse_ltc && job.mis != render::Mis::optimal)
-            return &add_profiled_samples<N, &add_by_cell_pair>;
+        if (job.strategies == Strategies::diffuse_ltc) return &add_profiled_samples<N, &add_by_cell_pair>;
     }
     return polygon_points<N>(job);
 }

@@ -1,0 +1,110 @@
+#include "scene/build/lights/dark_portals.h"
+
+#include "scene/model/bounds.h"
+#include "scene/model/lights/environment_light.h"
+#include "scene/model/vector_math.h"
+
+#include <nusselt/emission/octahedral_map.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace nusselt::scene {
+
+namespace {
+
+/// A plane. Its sides are those before it, from which the normal leads away, and those beyond it.
+struct PortalPlane {
+    Double3 origin, normal;
+};
+
+/// A flag for each side of the plane of a portal.
+struct Sides {
+    bool before = false, beyond = false;
+};
+
+PortalPlane plane_of(const PolygonVertices& portal) {
+    const Double3 origin = to_double(portal[0]);
+    Double3 sum;
+    for (std::size_t i = 2; i < portal.size(); ++i)
+        sum = sum + cross(to_double(portal[i - 1]) - origin, to_double(portal[i]) - origin);
+    return {origin, normalized(sum)};
+}
+
+/// On which sides surfaces are. Boxes stand for instances.
+Sides surface_sides(const Scene& scene, const PortalPlane& plane) {
+    // Walls around a window are in its plane, but for rounding.
+    const double rounding = 1e-5 * scene.radius;
+    Sides sides;
+    const auto add = [&](const Double3& p) {
+        const double height = dot(plane.normal, p - plane.origin);
+        sides.before |= height < -rounding;
+        sides.beyond |= height > rounding;
+    };
+    for (std::size_t i = 0; i < world_triangle_count(scene); ++i)
+        for (const std::uint32_t vertex : scene.triangles[i].vertex) add(to_double(scene.positions[vertex]));
+    for (const Instance& instance : scene.instances) {
+        const Object& object = scene.objects[instance.object];
+        const Bounds box = transformed(triangle_bounds(scene, object.first_triangle, object.triangle_count),
+                                       instance.world_from_object);
+        for (const double x : {box.low.x, box.high.x})
+            for (const double y : {box.low.y, box.high.y})
+                for (const double z : {box.low.z, box.high.z}) add({x, y, z});
+    }
+    return sides;
+}
+
+/// From which sides light comes.
+Sides lit_sides(const Scene& scene, const EnvironmentLight& light, const PortalPlane& plane) {
+    if (light.map < 0) return {true, true};
+    const EnvironmentMapTexels& map = *scene.environment_maps[static_cast<std::size_t>(light.map)];
+    const auto along = [&](const Float3& axis) { return dot(to_double(axis), plane.normal); };
+    const Double3 normal = {along(light.x_axis), along(light.y_axis), along(light.z_axis)};
+    double before = 0;
+    double beyond = 0;
+    std::size_t index = 0;
+    for (int j = 0; j < map.size; ++j) {
+        for (int i = 0; i < map.size; ++i, ++index) {
+            const Float3& texel = map.texels[index];
+            const Vec3<double> d =
+                octahedral_direction(Vec2<double>{(i + 0.5) / map.size, (j + 0.5) / map.size});
+            const double cosine = dot(normal, {d.x, d.y, d.z});
+            (cosine < 0 ? before : beyond) += std::fabs(cosine) * (texel.x + texel.y + texel.z);
+        }
+    }
+    // A sky that ends at the plane lights texels across it.
+    const double least = 8 / (static_cast<double>(map.size) * map.size) * (before + beyond);
+    return {before > least, beyond > least};
+}
+
+} // namespace
+
+std::vector<Location> environment_origins(const BuiltShape& shapes) {
+    std::vector<Location> origins;
+    for (const EnvironmentLight& light : shapes.lights.of<EnvironmentLight>())
+        origins.push_back(shapes.emitters[light.emitter].location);
+    return origins;
+}
+
+void warn_of_dark_portals(const Scene& scene, const std::vector<Location>& origins, Warnings& warnings) {
+    const auto& lights = scene.lights.of<EnvironmentLight>();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].portal.size() == 0) continue;
+        const PortalPlane plane = plane_of(lights[i].portal);
+        const Sides surfaces = surface_sides(scene, plane);
+        if (!surfaces.before && !surfaces.beyond) {
+            if (world_triangle_count(scene) + scene.instances.size() > 0)
+                warnings.add(origins[i],
+                             "portal: no surface receives light through it, because all of them are "
+                             "in its plane");
+            continue;
+        }
+        const Sides lit = lit_sides(scene, lights[i], plane);
+        if (!(surfaces.before && lit.beyond) && !(surfaces.beyond && lit.before))
+            warnings.add(origins[i], "portal: no surface receives light through it, because the environment "
+                                     "is black on the side without surfaces");
+    }
+}
+
+} // namespace nusselt::scene
