@@ -137,6 +137,7 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
                         frame.count * frame.light_samples, light, uint(pair), ranks);
 }
 
+#include "passes/lights/environment_samples.glsl"
 #include "passes/lights/line_samples.glsl"
 #include "passes/lights/one_direction_samples.glsl"
 #include "passes/lights/polygon_samples.glsl"
