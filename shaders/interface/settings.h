@@ -16,12 +16,11 @@ const int kTextureKindsConstant = 4;
 // ... then settings, ...
 const int kTechniqueConstant = 5;
 const int kStrategiesConstant = 6;
-const int kMisConstant = 7;
-const int kSamplerConstant = 8;
-const int kBrdfConstant = 9;
-const int kEmissionSamplingConstant = 10;
+const int kSamplerConstant = 7;
+const int kBrdfConstant = 8;
+const int kEmissionSamplingConstant = 9;
 // ... then those of lights (shaders/interface/lights.h).
-const int kFirstLightConstant = 11;
+const int kFirstLightConstant = 10;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

@@ -81,7 +81,6 @@ std::vector<std::uint32_t> shading_constants(const render::RenderSettings& setti
     };
     set(interface::kTechniqueConstant, settings.technique);
     set(interface::kStrategiesConstant, settings.strategies);
-    set(interface::kMisConstant, settings.mis);
     set(interface::kSamplerConstant, settings.sample_order);
     set(interface::kBrdfConstant, settings.brdf);
     set(interface::kEmissionSamplingConstant, settings.emission_sampling);

@@ -23,31 +23,42 @@ TexturedSample measure_sample(Sky sky, int technique, vec2 u) {
     return TexturedSample(wi, measure_pdf(sky, technique, wi), wi, vec2(0.0));
 }
 
+/// What the techniques share, without sums.
+EnvironmentCells seen_map(Sky sky, int technique) {
+    return environment_cells_prepare(sky.map, sky.diffuse.frame, technique == 1 ? sky.specular.lowest : sky.diffuse.lowest);
+}
+
+float sky_total(Sky sky, int technique) { return technique == 1 ? sky.specular.sums.total : sky.diffuse.sums.total; }
+
 /// The weights of the parts of an element.
 vec4 sky_weights(Sky sky, int technique, int level, ivec2 at) {
     if (level == 1) return environment_map_texel_weights(sky.map, at);
     EnvironmentElements four = environment_map_parts(sky.map, level, at);
-    return four.weight * sky_factor(sky, technique, four);
+    return four.weight * (technique == 1 ? environment_ltc_factor(sky.lobe_on_map, four)
+                                         : environment_cosine_factor(sky.diffuse.frame.n, four));
 }
 
 // As environment_cosine_sample() and environment_ltc_sample().
 TexturedSample cells_sample(Sky sky, int technique, vec2 u) {
     if (!has_map(sky)) return measure_sample(sky, technique, u);
-    EnvironmentCells self = sky.of_technique[technique];
-    if (!(self.sums.total > 0.0)) return no_textured_sample();
-    CellChoice cell = cell_sums_choose(self.sums, u);
+    if (!(sky_total(sky, technique) > 0.0)) return no_textured_sample();
+    CellChoice cell;
+    if (technique == 1)
+        cell = cell_sums_choose(sky.specular.sums, u);
+    else
+        cell = cell_sums_choose(sky.diffuse.sums, u);
     TexelChoice texel = TexelChoice(cell.at, 1.0, cell.u);
     for (int level = environment_map_levels(sky.map) - 1; level > 0; --level)
         descend_to_part(texel, sky_weights(sky, technique, level, texel.at), ivec2(2));
-    return environment_cells_sample(self, cell, texel);
+    return environment_cells_sample(seen_map(sky, technique), cell, texel);
 }
 
 // As environment_cosine_density() and environment_ltc_density().
 float cells_pdf(Sky sky, int technique, TexturedSample s) {
     if (!has_map(sky)) return measure_pdf(sky, technique, s.wi);
-    EnvironmentCells self = sky.of_technique[technique];
-    if (!(self.sums.total > 0.0)) return 0.0;
-    TexelChoice texel = environment_cells_texel_at(self, s.at);
+    if (!(sky_total(sky, technique) > 0.0)) return 0.0;
+    EnvironmentCells seen = seen_map(sky, technique);
+    TexelChoice texel = environment_cells_texel_at(seen, s.at);
     TexelChoice choice = texel;
     int levels = environment_map_levels(sky.map);
     for (int level = 1; level < levels; ++level) {
@@ -55,8 +66,12 @@ float cells_pdf(Sky sky, int technique, TexturedSample s) {
         choice.at = choice.at >> 1;
         ascend_from_part(choice, part, sky_weights(sky, technique, level, choice.at));
     }
-    float of_cell = cell_sums_at(self.sums, s.at).probability;
-    return environment_cells_density(self, of_cell * choice.probability, texel.at,
+    float of_cell;
+    if (technique == 1)
+        of_cell = cell_sums_at(sky.specular.sums, s.at).probability;
+    else
+        of_cell = cell_sums_at(sky.diffuse.sums, s.at).probability;
+    return environment_cells_density(seen, of_cell * choice.probability, texel.at,
                                      environment_map_interpolant(sky.map, texel.at), s.at, s.wi);
 }
 
