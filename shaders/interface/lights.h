@@ -13,12 +13,16 @@ namespace nusselt::interface {
 using uint = std::uint32_t;
 #endif
 
+/// In place of the number of an emission word: there are none.
+const uint kNoWords = 0xffffffffu;
+
 // Kinds are numbered from 0 without gaps.
 const int kPolygonKind = 0;
 const int kLineKind = 1;
 const int kPointKind = 2;
 const int kDistantKind = 3;
-const int kLightKinds = 4;
+const int kEnvironmentKind = 4;
+const int kLightKinds = 5;
 
 // Specialisation constants: whether a scene has lights of a shape. Those that it has not need no code.
 const int kPolygonsConstant = kFirstLightConstant;
@@ -28,7 +32,9 @@ const int kPointsConstant = kFirstLightConstant + 3;
 const int kPointImagesConstant = kFirstLightConstant + 4; ///< points whose intensity comes from an image
 const int kDistantsConstant = kFirstLightConstant + 5;
 const int kTexturedPolygonsConstant = kFirstLightConstant + 6; ///< polygons that emit an image
-const int kConstantCount = kFirstLightConstant + 7;
+const int kUniformEnvironmentsConstant = kFirstLightConstant + 7;
+const int kMappedEnvironmentsConstant = kFirstLightConstant + 8;
+const int kConstantCount = kFirstLightConstant + 9;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -39,7 +45,8 @@ const int kPointLightsBinding = kFirstLightBinding + 3;
 const int kDistantLightsBinding = kFirstLightBinding + 4;
 const int kPolygonTexturesBinding = kFirstLightBinding + 5;
 const int kEmissionWordsBinding = kFirstLightBinding + 6; ///< texels and prepared data of all emission that varies
-const int kFirstBindingAfterLights = kFirstLightBinding + 7;
+const int kEnvironmentLightsBinding = kFirstLightBinding + 7;
+const int kFirstBindingAfterLights = kFirstLightBinding + 8;
 
 struct PolygonLightRecord {
     float normal[3];
@@ -102,6 +109,15 @@ struct PointLightRecord {
 struct DistantLightRecord {
     float to_light[3]; ///< unit
     float irradiance[3];
+};
+
+struct EnvironmentLightRecord {
+    // The axes of the map in world space.
+    float x_axis[3];
+    float y_axis[3];
+    float z_axis[3];
+    float radiance[3]; ///< the mean if there is a map
+    uint first_map_word; ///< emission word that its EnvironmentMapWords begin with, after its texels; kNoWords for none
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

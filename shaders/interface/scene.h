@@ -126,6 +126,7 @@ struct FrameRecord {
     uint light_samples; ///< per frame, light and technique
     uint seed;
     float visibility_estimate;
+    int mis; ///< a kMis constant: not one of the pipeline, since it would take longer to compile one for each heuristic
     // The part of the frame that is shaded at once; the rest follows.
     uint first_row; ///< of pixels
     uint first_light;

@@ -16,12 +16,11 @@ const int kTextureKindsConstant = 5;
 // ... then settings, ...
 const int kTechniqueConstant = 6;
 const int kStrategiesConstant = 7;
-const int kMisConstant = 8;
-const int kSamplerConstant = 9;
-const int kBrdfConstant = 10;
-const int kEmissionSamplingConstant = 11;
+const int kSamplerConstant = 8;
+const int kBrdfConstant = 9;
+const int kEmissionSamplingConstant = 10;
 // ... then those of lights (shaders/interface/lights.h).
-const int kFirstLightConstant = 12;
+const int kFirstLightConstant = 11;
 
 // Values of one setting are numbered from 0 without gaps.
 const int kTechniqueArea = 0;

@@ -32,6 +32,7 @@ void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
               integrals.x * reflected.glossy.diffuse_albedo + integrals.y * reflected.glossy.specular_albedo);
 }
 
+#include "passes/lights/environment_integrals.glsl"
 #include "passes/lights/line_integrals.glsl"
 #include "passes/lights/one_direction_integrals.glsl"
 #include "passes/lights/polygon_integrals.glsl"

@@ -4,6 +4,7 @@
 /// integrate_lights.comp include.
 
 #include "passes/lights/distant.glsl"
+#include "passes/lights/environment.glsl"
 #include "passes/lights/line.glsl"
 #include "passes/lights/point.glsl"
 #include "passes/lights/polygon.glsl"
@@ -16,7 +17,8 @@
     ROW(kPolygonKind, polygon_emission, add_polygons) \
     ROW(kLineKind, line_emission, add_lines) \
     ROW(kPointKind, no_emission, add_points) \
-    ROW(kDistantKind, no_emission, add_distants)
+    ROW(kDistantKind, no_emission, add_distants) \
+    ROW(kEnvironmentKind, no_emission, add_environments)
 
 /// Without a row for each kind, the array has no elements, which does not compile.
 struct AllKinds {

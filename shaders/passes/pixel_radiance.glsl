@@ -8,11 +8,14 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, int(frame.first_row));
     if (!has_pixel(pixel)) return;
     uint number = drawn_numbers[pixel_index(pixel)];
-    if (number == 0u) return;
-    check_settings();
-    DrawnTriangle drawn = drawn_triangle(number - 1u);
     Ray ray = camera_ray(pixel);
     bool is_first = frame.first_light == 0u && frame.first_sample == 0u;
+    if (number == 0u) {
+        if (kHasEnvironments && is_first) add_to_pixel(pixel, frame.weight * background(ray));
+        return;
+    }
+    check_settings();
+    DrawnTriangle drawn = drawn_triangle(number - 1u);
     vec3 radiance = is_first ? emission_of(drawn, ray) : vec3(0.0);
     if (drawn.is_surface) {
         Surface surface = make_surface(drawn, ray);

@@ -97,7 +97,7 @@ TechniquePair make_technique_pair(GlossySurface surface, vec3 diffuse, vec3 spec
 }
 
 /// How many samples share the number of a sample.
-int samples_per_number(bool is_paired) { return is_paired && kMis != kNusseltMisOneSample ? 2 : 1; }
+int samples_per_number(bool is_paired) { return is_paired && frame.mis != kNusseltMisOneSample ? 2 : 1; }
 
 /// Which technique takes a sample, and with which random numbers.
 struct Draw {
@@ -107,7 +107,7 @@ struct Draw {
 
 /// \param pair the number of the pair of random numbers: that of the technique, unless a random number chooses it
 Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u) {
-    if (!is_paired || kMis != kNusseltMisOneSample) return Draw(pair, u);
+    if (!is_paired || frame.mis != kNusseltMisOneSample) return Draw(pair, u);
     OneSampleDecision decision = one_sample_choice_decide(techniques.choice, u.x);
     return Draw(decision.chosen, vec2(decision.u, u.y));
 }
@@ -116,10 +116,10 @@ Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u
 /// \param pdf        the densities of both techniques there
 DirectLightSample combine(TechniquePair techniques, BrdfComponents components, int technique, LightSample s, vec2 pdf) {
     MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y, components);
-    if (kMis == kNusseltMisOneSample)
+    if (frame.mis == kNusseltMisOneSample)
         return direct_light_combined(s, one_sample_choice_estimate(techniques.choice, at));
     return direct_light_combined(
-        s, mis_estimate(kMis, technique, frame.visibility_estimate, techniques.estimator.techniques, at));
+        s, mis_estimate(frame.mis, technique, frame.visibility_estimate, techniques.estimator.techniques, at));
 }
 
 uint blue_noise_at(uint index) { return blue_noise_rank(blue_noise_words[index / 2u], index); }
@@ -137,6 +137,7 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
                         frame.count * frame.light_samples, light, uint(pair), ranks);
 }
 
+#include "passes/lights/environment_samples.glsl"
 #include "passes/lights/line_samples.glsl"
 #include "passes/lights/one_direction_samples.glsl"
 #include "passes/lights/polygon_samples.glsl"

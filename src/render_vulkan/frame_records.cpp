@@ -63,6 +63,7 @@ interface::FrameRecord FrameRecords::make(std::uint32_t number) const {
     record.light_samples = is_analytic ? 1 : static_cast<std::uint32_t>(settings_.samples) / count_;
     record.seed = settings_.seed;
     record.visibility_estimate = settings_.visibility_estimate;
+    record.mis = static_cast<std::int32_t>(settings_.mis);
     record.loop_probe = 2;
     return record;
 }

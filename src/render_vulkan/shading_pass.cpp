@@ -27,7 +27,11 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
 }
 
 /// Whether images of lights decide where samples are, or are integrated: see shaders/passes/lights/polygon_cell_samples.glsl.
+/// Shaders for environments are the same.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
+    if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
+        constants[interface::kMappedEnvironmentsConstant] != 0)
+        return true;
     if (constants[interface::kTexturedPolygonsConstant] == 0) return false;
     return is_analytic(constants) || constants[interface::kEmissionSamplingConstant] ==
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
@@ -76,7 +80,6 @@ std::vector<std::uint32_t> shading_constants(const render::RenderSettings& setti
     };
     set(interface::kTechniqueConstant, settings.technique);
     set(interface::kStrategiesConstant, settings.strategies);
-    set(interface::kMisConstant, settings.mis);
     set(interface::kSamplerConstant, settings.sample_order);
     set(interface::kBrdfConstant, settings.brdf);
     set(interface::kEmissionSamplingConstant, settings.emission_sampling);

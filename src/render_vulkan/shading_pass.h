@@ -24,7 +24,7 @@ struct PixelBuffers {
     gpu::Buffer work;    ///< an interface::WorkRecord
 };
 
-/// The constants that choose a pipeline: all settings except seeds and numbers of samples.
+/// The constants that choose a pipeline: all settings except heuristics, seeds and numbers of samples.
 std::vector<std::uint32_t> shading_constants(const render::RenderSettings& settings, const SceneKinds& kinds);
 
 /// Rows of pixels that work groups shade together.

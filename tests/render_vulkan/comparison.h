@@ -5,7 +5,7 @@
 #include "render_cpu/renderer.h"
 #include "render_vulkan/renderer.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace nusselt::render_vulkan_test {
 
@@ -17,7 +17,9 @@ inline image::Image render_on_cpu(const scene::Scene& scene, const render::Rende
 
 /// Whether the renderer for GPUs has all lights of a scene.
 inline bool is_supported(const scene::Scene& scene) {
-    return scene.lights.of<scene::EnvironmentLight>().empty();
+    const auto& environments = scene.lights.of<scene::EnvironmentLight>();
+    return std::all_of(environments.begin(), environments.end(),
+                       [](const scene::EnvironmentLight& light) { return light.portal.size() == 0; });
 }
 
 } // namespace nusselt::render_vulkan_test

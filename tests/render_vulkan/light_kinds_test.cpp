@@ -114,6 +114,18 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointsConstant});
     point.distribution = scene::PointDistribution::projected_image;
     EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointImagesConstant});
+    const auto shapes_with_environment = [&](std::int32_t map) {
+        scene::Scene other = render_test::make_floor(4);
+        scene::EnvironmentMapTexels texels{"black", 16, {}, {0, 0, 0}};
+        texels.texels.resize(16 * 16);
+        other.environment_maps = {std::make_shared<const scene::EnvironmentMapTexels>(texels)};
+        scene::EnvironmentLight light;
+        light.map = map;
+        other.lights.of<scene::EnvironmentLight>() = {light};
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_environment(-1), std::vector<int>{interface::kUniformEnvironmentsConstant});
+    EXPECT_EQ(shapes_with_environment(0), std::vector<int>{interface::kMappedEnvironmentsConstant});
     scene.lights.of<scene::PointLight>() = {point, point};
     scene.lights.of<scene::DistantLight>().resize(3);
 

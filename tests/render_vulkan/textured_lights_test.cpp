@@ -1,4 +1,5 @@
 /// Lights that emit an image: with samples by the measure, the GPU renders the image of the CPU; cells have the same mean.
+/// That is so with all strategies and heuristics.
 
 #include "comparison.h"
 #include "gpu_test.h"
@@ -11,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace nusselt::render_vulkan_test {
 namespace {
@@ -22,8 +24,8 @@ using render_vulkan::VulkanRenderer;
 using scene::Float2;
 using scene::Float3;
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
+constexpr int kWidth = 32;
+constexpr int kHeight = 24;
 constexpr float kBright = 30;
 
 /// Dark colours, and texels that are much brighter.
@@ -80,15 +82,24 @@ scene::Scene make_mutant(int width, int height) {
     return scene;
 }
 
+/// Those that a pair of techniques allows; one is enough where there is no pair.
+std::vector<render::Mis> heuristics_of(Strategies strategies) {
+    std::vector<render::Mis> all;
+    for (const render::Mis mis : render::kMisHeuristics)
+        if (allows(strategies, mis) && (strategies != Strategies::diffuse || all.empty())) all.push_back(mis);
+    return all;
+}
+
 class TexturedLights : public parity::GpuTest {
 protected:
     VulkanRenderer renderer_of(const scene::Scene& scene) const {
         return {device(), scene, render_vulkan::default_shadow_rays(device())};
     }
 
-    void expect_agreement(const render::RenderSettings& settings) const {
+    static void expect_agreement(VulkanRenderer& renderer, const render::RenderSettings& settings) {
+        SCOPED_TRACE(testing::Message() << name_of(settings.strategies) << ", " << name_of(settings.mis));
         const scene::Scene scene = make_scene(kWidth, kHeight);
-        const render::RenderResult result = renderer_of(scene).render(settings);
+        const render::RenderResult result = renderer.render(settings);
         EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), lab::kLargestDifferingShare);
         EXPECT_EQ(result.statistics.rejected_samples, 0u);
         // The test of the test.
@@ -106,15 +117,37 @@ render::RenderSettings centred() {
 }
 
 TEST_F(TexturedLights, SampledByTheirMeasure_AgreeWithTheCpu) {
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
     render::RenderSettings settings = centred();
-    settings.strategies = Strategies::diffuse_ltc;
-    expect_agreement(settings);
+    for (const Strategies strategies : render::kStrategies) {
+        settings.strategies = strategies;
+        // Samples of the BRDF never come from cells.
+        settings.emission_sampling =
+            strategies == Strategies::diffuse_ggx ? EmissionSampling::product : EmissionSampling::measure;
+        for (const render::Mis mis : heuristics_of(strategies)) {
+            settings.mis = mis;
+            expect_agreement(renderer, settings);
+        }
+    }
 }
 
 TEST_F(TexturedLights, IntegratedByCells_AgreeWithTheCpu) {
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
     render::RenderSettings settings = centred();
     settings.technique = Technique::ltc_analytic;
-    expect_agreement(settings);
+    expect_agreement(renderer, settings);
+}
+
+/// Statistics of frames with these seeds.
+lab::BiasStatistics statistics_of(render::RenderSettings settings, std::uint32_t first_seed,
+                                  std::uint32_t frames,
+                                  const std::function<image::Image(const render::RenderSettings&)>& render) {
+    lab::BiasStatistics statistics;
+    for (std::uint32_t i = 0; i < frames; ++i) {
+        settings.seed = first_seed + i;
+        statistics.add(render(settings));
+    }
+    return statistics;
 }
 
 /// The CPU descends to texels by their radiance alone, so that only means agree.
@@ -125,21 +158,13 @@ TEST_F(TexturedLights, SampledByCells_HaveNoBias) {
     settings.strategies = Strategies::diffuse_ltc;
     // All pixels of a frame share their offset: with few frames, edges would not be independent of each other.
     settings.samples = 16;
-    const auto statistics_of = [&](std::uint32_t first_seed,
-                                   const std::function<image::Image(const render::RenderSettings&)>& render) {
-        lab::BiasStatistics statistics;
-        for (std::uint32_t i = 0; i < kFrames; ++i) {
-            settings.seed = first_seed + i;
-            statistics.add(render(settings));
-        }
-        return statistics;
-    };
     const scene::Scene scene = make_scene(kSide, kSide);
     VulkanRenderer renderer = renderer_of(scene);
     const lab::BiasStatistics of_gpu =
-        statistics_of(0, [&](const auto& s) { return renderer.render(s).image; });
+        statistics_of(settings, 0, kFrames, [&](const auto& s) { return renderer.render(s).image; });
     const auto compare = [&](const scene::Scene& other) {
-        return of_gpu.compare(statistics_of(1000, [&](const auto& s) { return render_on_cpu(other, s); }));
+        return of_gpu.compare(
+            statistics_of(settings, 1000, kFrames, [&](const auto& s) { return render_on_cpu(other, s); }));
     };
     const lab::BiasTest test = compare(scene);
     EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
@@ -149,6 +174,35 @@ TEST_F(TexturedLights, SampledByCells_HaveNoBias) {
     scene::Scene brighter = make_scene(kSide, kSide);
     brighter.emission_textures.at(0).mean = {0.97f, 1.94f, 0.97f};
     EXPECT_FALSE(compare(brighter).passes());
+}
+
+/// With fewer samples, but all heuristics.
+TEST_F(TexturedLights, SampledByCells_HaveNoBiasWithAnyHeuristic) {
+    constexpr int kFrames = 12;
+    constexpr int kSide = 16;
+    render::RenderSettings settings;
+    settings.samples = 4;
+    VulkanRenderer renderer = renderer_of(make_scene(kSide, kSide));
+    const auto expect_none = [&] {
+        SCOPED_TRACE(testing::Message() << name_of(settings.strategies) << ", " << name_of(settings.mis));
+        const lab::BiasStatistics of_gpu =
+            statistics_of(settings, 0, kFrames, [&](const auto& s) { return renderer.render(s).image; });
+        const auto compare = [&](const scene::Scene& other) {
+            return of_gpu.compare(statistics_of(settings, 1000, kFrames,
+                                                [&](const auto& s) { return render_on_cpu(other, s); }));
+        };
+        const lab::BiasTest test = compare(make_scene(kSide, kSide));
+        EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
+                                   << test.chi_square << " of " << test.cells;
+        EXPECT_FALSE(compare(make_mutant(kSide, kSide)).passes());
+    };
+    settings.strategies = Strategies::diffuse_ltc;
+    for (const render::Mis mis : render::kMisHeuristics) {
+        settings.mis = mis;
+        expect_none();
+    }
+    settings.strategies = Strategies::diffuse;
+    expect_none();
 }
 
 } // namespace

@@ -23,12 +23,14 @@ constexpr std::uint32_t kSide = 16;
 class UnknownSettings : public parity::GpuTest {
 protected:
     /// Pixels that were shaded by a pipeline with these constants and had a setting that is unknown there.
-    std::uint32_t unknown_count(const std::vector<std::uint32_t>& constants) {
+    std::uint32_t unknown_count(const std::vector<std::uint32_t>& constants,
+                                int mis = interface::kMisBalance) {
         PixelBuffers pixels(device(), kSide, kSide);
         const std::vector<std::uint32_t> first_triangle(kSide * kSide, 1);
         pixels.numbers.write(std::span<const std::uint32_t>(first_triangle));
         const render_vulkan::ShadingPass pass(scene(), constants, pixels);
         interface::FrameRecord frame = render_vulkan::FrameRecords(scene().film(), {}).make(0);
+        frame.mis = mis;
         frame.light_end = scene().light_count();
         frame.sample_end = frame.light_samples;
         const gpu::Device::Record record = [&](const gpu::Device::Commands& commands) {
@@ -61,10 +63,10 @@ private:
 
 TEST_F(UnknownSettings, AreCountedByShaders) {
     EXPECT_EQ(unknown_count(known_constants()), 0u);
+    EXPECT_EQ(unknown_count(known_constants(), interface::kMisCount), kSide * kSide);
     const std::pair<int, int> ends[] = {
         {interface::kTechniqueConstant, interface::kTechniqueCount},
         {interface::kStrategiesConstant, interface::kStrategiesCount},
-        {interface::kMisConstant, interface::kMisCount},
         {interface::kSamplerConstant, interface::kSamplerCount},
         {interface::kBrdfConstant, interface::kBrdfCount},
         {interface::kEmissionSamplingConstant, interface::kEmissionSamplingCount}};

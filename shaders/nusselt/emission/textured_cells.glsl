@@ -128,22 +128,27 @@ TexturedSpot textured_view_spot(TexturedView self, CellChoice cell, bool is_smoo
 }
 
 /// The spot that random numbers choose, with the random numbers that are left.
-TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
-    CellChoice cell = cell_sums_choose(self.sums, u);
-    bool is_smooth = textured_view_is_smooth(self.view, cell);
+/// \param cell with the random numbers inside of it.
+TexturedSpot textured_view_spot_of(TexturedView self, CellChoice cell) {
+    bool is_smooth = textured_view_is_smooth(self, cell);
     TexelChoice texel = TexelChoice(ivec2(0), 0.0, vec2(0.0));
-    if (!is_smooth) texel = choose_texel(self.view.light, self.view.image, cell.at, cell.u);
-    return textured_view_spot(self.view, cell, is_smooth, texel);
+    if (!is_smooth) texel = choose_texel(self.light, self.image, cell.at, cell.u);
+    return textured_view_spot(self, cell, is_smooth, texel);
+}
+TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
+    return textured_view_spot_of(self.view, cell_sums_choose(self.sums, u));
 }
 
 /// The spot where a point is.
-/// \param at texture coordinates.
-TexturedSpot textured_cells_spot_at(TexturedCells self, vec2 at) {
-    CellChoice cell = cell_sums_at(self.sums, at);
-    ivec2 size = pyramid_size_of(textured_light_shape(self.view.light), 0);
+/// \param cell that has it.
+/// \param at   texture coordinates.
+TexturedSpot textured_view_spot_at(TexturedView self, CellChoice cell, vec2 at) {
+    ivec2 size = pyramid_size_of(textured_light_shape(self.light), 0);
     ivec2 texel = clamp(ivec2(at * vec2(size)), ivec2(0), size - 1);
-    return textured_view_spot(self.view, cell, textured_view_is_smooth(self.view, cell),
-                              TexelChoice(texel, 1.0, vec2(0.0)));
+    return textured_view_spot(self, cell, textured_view_is_smooth(self, cell), TexelChoice(texel, 1.0, vec2(0.0)));
+}
+TexturedSpot textured_cells_spot_at(TexturedCells self, vec2 at) {
+    return textured_view_spot_at(self.view, cell_sums_at(self.sums, at), at);
 }
 
 vec2 clamped(vec2 at, TextureRectangle r) {

@@ -10,31 +10,62 @@ const bool kHasCellSamples = kEmissionSampling == kEmissionSamplingProduct && kI
 
 const bool kHasCellPairs = kStrategies == kStrategiesDiffuseLtc;
 
+/// The technique of a smooth cell: projected solid angle of the part of the light, or of its image in the space of the lobe.
+struct PartTechnique {
+    PolygonPart part;
+    PolygonProjectedSolidAngle image;
+};
+
+PartTechnique part_technique(PolygonCells cells, int technique, ConvexPolygon polygon) {
+    PolygonPart part = whole_part(polygon);
+    if (kHasCellPairs && technique == 1) polygon = to_cosine_space(part.polygon, cells.lobe);
+    return PartTechnique(part, polygon_projected_solid_angle_prepare(polygon));
+}
+
+PolygonLtc on_lobe(PolygonCells cells, PartTechnique self) {
+    return polygon_ltc_prepare_image(self.part, cells.lobe, self.image);
+}
+
 // As textured_polygon_sample() and textured_polygon_ltc_sample(), with one copy of what they share.
 TexturedSample cells_sample(PolygonCells cells, int technique, vec2 u) {
-    TexturedCells self = cells.of_technique[technique];
-    if (!(self.sums.total > 0.0)) return no_textured_sample();
-    TexturedSpot spot = textured_cells_spot_of(self, u);
-    if (!spot.is_smooth) return textured_view_busy_sample(self.view, spot);
-    ConvexPolygon part = polygon_in(self.view.plane, spot.part);
-    LightSample s;
-    if (kHasCellPairs && technique == 1)
-        s = polygon_ltc_sample(polygon_ltc_prepare(part, cells.lobe), spot.cell.u);
-    else
-        s = polygon_projected_solid_angle_sample(polygon_projected_solid_angle_prepare(part), spot.cell.u);
-    return textured_view_smooth_sample(self.view, spot, s);
+    TexturedView view = cells.diffuse.view;
+    float total = cells.diffuse.sums.total;
+    CellChoice cell;
+    if (kHasCellPairs && technique == 1) {
+        view = cells.specular.view;
+        total = cells.specular.sums.total;
+        cell = cell_sums_choose(cells.specular.sums, u);
+    } else {
+        cell = cell_sums_choose(cells.diffuse.sums, u);
+    }
+    if (!(total > 0.0)) return no_textured_sample();
+    TexturedSpot spot = textured_view_spot_of(view, cell);
+    if (!spot.is_smooth) return textured_view_busy_sample(view, spot);
+    PartTechnique part = part_technique(cells, technique, polygon_in(view.plane, spot.part));
+    LightSample s = polygon_projected_solid_angle_sample(part.image, spot.cell.u);
+    if (kHasCellPairs && technique == 1) s = polygon_ltc_sample_image(on_lobe(cells, part), s);
+    return textured_view_smooth_sample(view, spot, s);
 }
 
 // As textured_polygon_density() and textured_polygon_ltc_density().
 float cells_pdf(PolygonCells cells, int technique, TexturedSample s) {
-    TexturedCells self = cells.of_technique[technique];
-    TexturedSpot spot = textured_cells_spot_at(self, s.at);
-    if (!(self.sums.total > 0.0) || !(spot.cell.probability > 0.0)) return 0.0;
-    if (!spot.is_smooth) return textured_view_busy_density(self.view, spot, s.wi, s.at);
-    ConvexPolygon part = polygon_in(self.view.plane, spot.part);
-    if (technique == 1) return spot.cell.probability * polygon_ltc_pdf(polygon_ltc_prepare(part, cells.lobe), s.wi);
-    return spot.cell.probability *
-           polygon_projected_solid_angle_pdf(polygon_projected_solid_angle_prepare(part), s.wi);
+    TexturedView view = cells.diffuse.view;
+    float total = cells.diffuse.sums.total;
+    CellChoice cell;
+    if (technique == 1) {
+        view = cells.specular.view;
+        total = cells.specular.sums.total;
+        cell = cell_sums_at(cells.specular.sums, s.at);
+    } else {
+        cell = cell_sums_at(cells.diffuse.sums, s.at);
+    }
+    if (!(total > 0.0) || !(cell.probability > 0.0)) return 0.0;
+    TexturedSpot spot = textured_view_spot_at(view, cell, s.at);
+    if (!spot.is_smooth) return textured_view_busy_density(view, spot, s.wi, s.at);
+    PartTechnique part = part_technique(cells, technique, polygon_in(view.plane, spot.part));
+    float pdf = polygon_projected_solid_angle_pdf(part.image, s.wi);
+    if (technique == 1) pdf = polygon_ltc_pdf(on_lobe(cells, part), s.wi);
+    return spot.cell.probability * pdf;
 }
 
 vec3 cells_radiance(PolygonCells cells, vec2 at) { return texture_radiance(cells.texture_number, at); }
@@ -52,7 +83,7 @@ void add_polygon(inout Estimate estimate, LocalPolygon light) {
     if (!light.role.is_lit) return;
     GlossySurface glossy = estimate.reflection.glossy;
     bool is_paired = kHasCellPairs && glossy_surface_is_glossy(glossy);
-    add_cells(estimate, light.role.number, prepare_cells(light, glossy.lobe, is_paired), is_paired);
+    add_cells(estimate, light.role.number, prepare_cells(light, glossy.lobe, is_paired), is_paired, vec3(1.0));
 }
 
 #endif

@@ -8,10 +8,12 @@
 
 uint textured_light_word(uint at) { return emission_words[at]; }
 
+/// Not an array of two techniques: drivers would copy it, with all of its sums, for each index that varies.
 struct PolygonCells {
     int texture_number;
-    TexturedCells of_technique[2];
-    Ltc lobe; ///< of technique 1
+    TexturedCells diffuse;  ///< of technique 0
+    TexturedCells specular; ///< of technique 1
+    Ltc lobe;               ///< of technique 1
 };
 
 /// Techniques take turns: two copies of the code would take twice as long to compile.
@@ -26,13 +28,18 @@ PolygonCells prepare_cells(LocalPolygon light, Ltc lobe, bool is_paired) {
     for (int k = 0; k < count; ++k) {
         TexturedView view = textured_polygon_view(light.plane, first_word);
         if (is_paired && k == 1) view = textured_polygon_ltc_view(light.plane, first_word, lobe);
-        cells.of_technique[k] = textured_cells_prepare(view);
+        TexturedCells prepared = textured_cells_prepare(view);
+        if (k == 1)
+            cells.specular = prepared;
+        else
+            cells.diffuse = prepared;
     }
     return cells;
 }
 
 vec3 cells_unshadowed(PolygonCells cells, int technique) {
-    return textured_cells_unshadowed(cells.of_technique[technique]);
+    if (technique == 1) return textured_cells_unshadowed(cells.specular);
+    return textured_cells_unshadowed(cells.diffuse);
 }
 
 #endif

@@ -13,7 +13,8 @@ namespace {
 using WriteLights = bool (*)(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 /// By the number of the kind in shaders/interface/lights.h.
-constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, write_distants};
+constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, write_distants,
+                                  write_environments};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
 } // namespace

@@ -54,5 +54,6 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
 bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 bool write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 bool write_distants(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+bool write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 } // namespace nusselt::render_vulkan

@@ -42,15 +42,16 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
-    // Shaders for lights with a texture have room for 8 vertices only.
-    const bool are_small = std::all_of(lights.begin(), lights.end(), [](const auto& light) {
-        return light.vertices.size() <= 4 && light.texture < 0;
-    });
+    // Shaders for lights with a texture and for environments have room for 8 vertices only.
+    const bool are_small = scene.lights.of<scene::EnvironmentLight>().empty() &&
+                           std::all_of(lights.begin(), lights.end(), [](const auto& light) {
+                               return light.vertices.size() <= 4 && light.texture < 0;
+                           });
     records.polygon_slots = are_small ? 4 : 8;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
     LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
-    emission.what = "images of lights";
+    emission.what = "images of lights and environments";
     for (const scene::PolygonLight& light : lights) {
         if (are_small)
             add_polygon<4>(light, arrays);

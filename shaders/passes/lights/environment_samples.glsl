@@ -1,0 +1,11 @@
+#ifndef NUSSELT_PASSES_LIGHTS_ENVIRONMENT_SAMPLES_GLSL
+#define NUSSELT_PASSES_LIGHTS_ENVIRONMENT_SAMPLES_GLSL
+/// Samples of environments, in the shaders that scenes with environments have.
+
+#if EMISSION_CELLS
+#include "passes/lights/environment_cell_samples.glsl"
+#else
+void add_environments(inout Estimate estimate) {}
+#endif
+
+#endif

@@ -1,0 +1,63 @@
+// Environments, for shaders/passes/lights/environment.glsl.
+
+#include "render_vulkan/lights/emission_words.h"
+#include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/record_values.h"
+#include "scene/model/library_vector.h"
+#include "scene/model/vector_math.h"
+
+#include <nusselt/emission/environment_map_words.h>
+
+#include <cstddef>
+#include <stdexcept>
+
+namespace nusselt::render_vulkan {
+
+namespace {
+
+static_assert(ShaderEnvironment::kCells == kShaderCells * kShaderCells);
+
+/// Appends the texels of a map, then its words.
+/// \returns the number of the first one after the texels
+std::uint32_t add_map(const scene::EnvironmentMapTexels& map, const scene::Float3& radiance,
+                      std::vector<std::uint32_t>& words) {
+    const std::vector<Vec3<float>> texels =
+        scene::scaled(map.texels, scene::per_channel_ratio(radiance, map.mean));
+    std::vector<float> storage(static_cast<std::size_t>(ShaderEnvironment::storage_size(map.size)));
+    const ShaderEnvironment light =
+        make_environment_map<kShaderCells>(OctahedralMap<float>{texels.data(), map.size}, storage.data());
+    add_texels(texels, words);
+    const std::uint32_t first =
+        grow_words(words, static_cast<std::size_t>(EnvironmentMapWords::count(light)));
+    EnvironmentMapWords::write(light, words.data() + first);
+    return first;
+}
+
+} // namespace
+
+bool write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto* const environments = dynamic_cast<const scene::LightsOf<scene::EnvironmentLight>*>(&list);
+    if (environments == nullptr) return false;
+    std::vector<std::uint32_t>& words = records.array_at(interface::kEmissionWordsBinding).words;
+    std::vector<interface::EnvironmentLightRecord> lights;
+    for (const scene::EnvironmentLight& light : environments->lights) {
+        if (light.portal.size() > 0)
+            throw std::runtime_error(
+                "environments with a portal are not supported on GPUs; use --backend cpu");
+        interface::EnvironmentLightRecord& record = lights.emplace_back();
+        copy(light.x_axis, record.x_axis);
+        copy(light.y_axis, record.y_axis);
+        copy(light.z_axis, record.z_axis);
+        copy(light.radiance, record.radiance);
+        record.first_map_word = interface::kNoWords;
+        records.has_shape_of(light.map < 0 ? interface::kUniformEnvironmentsConstant
+                                           : interface::kMappedEnvironmentsConstant) = true;
+        if (light.map >= 0)
+            record.first_map_word = add_map(*scene.environment_maps.at(static_cast<std::size_t>(light.map)),
+                                            light.radiance, words);
+    }
+    records.array_at(interface::kEnvironmentLightsBinding) = make_light_array("environments", lights);
+    return true;
+}
+
+} // namespace nusselt::render_vulkan

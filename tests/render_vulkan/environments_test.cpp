@@ -1,0 +1,181 @@
+/// Environments: GPUs render the images of the CPU.
+
+#include "comparison.h"
+#include "gpu_test.h"
+#include "lab/errors/bias_statistics.h"
+#include "rich_scene.h"
+#include "scenes.h"
+
+#include "render_vulkan/lights/light_records.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render::Strategies;
+using render::Technique;
+using render_vulkan::VulkanRenderer;
+using scene::Float3;
+
+constexpr int kWidth = 32;
+constexpr int kHeight = 24;
+
+/// Dark colours, and texels that are much brighter. \param brightness of all of them
+std::shared_ptr<const scene::EnvironmentMapTexels> make_map(int size, float brightness) {
+    scene::EnvironmentMapTexels map{"map", size, {}, {1, 2, 1}};
+    std::uint32_t state = 11;
+    const auto random = [&] {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<float>(state >> 8) / 16777216.0f;
+    };
+    for (int i = 0; i < size * size; ++i) {
+        const float texel = brightness * (random() < 0.03f ? 30 : random());
+        map.texels.push_back({texel * random(), texel, texel * random()});
+    }
+    return std::make_shared<const scene::EnvironmentMapTexels>(std::move(map));
+}
+
+/// A sky with a map, one that is the same everywhere, and one whose map is black. The camera sees them behind the walls.
+scene::Scene make_scene(int width, int height) {
+    scene::Scene scene = make_plain_scene(width, height);
+    // Drivers take the longer for each kind of light.
+    scene.lights.clear();
+    scene.emitters.clear();
+    std::fill(scene.triangle_light.begin(), scene.triangle_light.end(), -1);
+    scene.environment_maps = {make_map(32, 1), make_map(16, 0)};
+    const auto add = [&](std::int32_t map, const Float3& radiance) {
+        scene::EnvironmentLight light;
+        light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+        light.map = map;
+        light.radiance = radiance;
+        light.y_axis = {0, 0.6f, 0.8f};
+        light.z_axis = {0, -0.8f, 0.6f};
+        scene.emitters.push_back({"sky"});
+        scene.lights.of<scene::EnvironmentLight>().push_back(light);
+    };
+    add(0, {0.5f, 1, 0.4f});
+    add(-1, {0.1f, 0.2f, 0.4f});
+    add(1, {1, 1, 1});
+    return scene;
+}
+
+/// The same scene, but its map is a mirror image.
+scene::Scene make_mutant(int width, int height) {
+    scene::Scene scene = make_scene(width, height);
+    scene.lights.of<scene::EnvironmentLight>().front().x_axis = {-1, 0, 0};
+    return scene;
+}
+
+render::RenderSettings centred() {
+    render::RenderSettings settings;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.samples = 2;
+    return settings;
+}
+
+class Environments : public parity::GpuTest {
+protected:
+    VulkanRenderer renderer_of(const scene::Scene& scene) const {
+        return {device(), scene, render_vulkan::default_shadow_rays(device())};
+    }
+
+    static void expect_agreement(VulkanRenderer& renderer, const render::RenderSettings& settings) {
+        SCOPED_TRACE(testing::Message() << name_of(settings.technique) << ", " << name_of(settings.strategies)
+                                        << ", " << name_of(settings.mis));
+        const render::RenderResult result = renderer.render(settings);
+        EXPECT_LT(differing_share(result.image, render_on_cpu(make_scene(kWidth, kHeight), settings)),
+                  lab::kLargestDifferingShare);
+        EXPECT_EQ(result.statistics.rejected_samples, 0u);
+        // The test of the test.
+        EXPECT_GT(differing_share(result.image, render_on_cpu(make_mutant(kWidth, kHeight), settings)),
+                  2 * lab::kLargestDifferingShare);
+    }
+};
+
+TEST_F(Environments, AgreeWithTheCpu_WithAllHeuristics) {
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
+    render::RenderSettings settings = centred();
+    settings.strategies = Strategies::diffuse_ltc;
+    settings.visibility_estimate = 0.8f;
+    for (const render::Mis mis : render::kMisHeuristics) {
+        settings.mis = mis;
+        expect_agreement(renderer, settings);
+    }
+}
+
+/// They take the same samples with all techniques and strategies without lobes, also by the measure.
+TEST_F(Environments, AgreeWithTheCpu_WithoutLobes) {
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::solid_angle;
+    settings.strategies = Strategies::diffuse_ggx;
+    settings.mis = render::Mis::balance;
+    settings.emission_sampling = render::EmissionSampling::measure;
+    expect_agreement(renderer, settings);
+}
+
+TEST_F(Environments, IntegratedByCells_AgreeWithTheCpu) {
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::ltc_analytic;
+    expect_agreement(renderer, settings);
+}
+
+/// With random positions in pixels, only means agree.
+TEST_F(Environments, HaveNoBias) {
+    constexpr int kFrames = 12;
+    render::RenderSettings settings;
+    settings.strategies = Strategies::diffuse_ltc;
+    settings.samples = 8;
+    const auto statistics_of = [&](std::uint32_t first_seed, const auto& render) {
+        lab::BiasStatistics statistics;
+        for (std::uint32_t i = 0; i < kFrames; ++i) {
+            settings.seed = first_seed + i;
+            statistics.add(render(settings));
+        }
+        return statistics;
+    };
+    VulkanRenderer renderer = renderer_of(make_scene(kWidth, kHeight));
+    const lab::BiasStatistics of_gpu =
+        statistics_of(0, [&](const auto& s) { return renderer.render(s).image; });
+    const auto compare = [&](const scene::Scene& other) {
+        return of_gpu.compare(statistics_of(1000, [&](const auto& s) { return render_on_cpu(other, s); }));
+    };
+    const lab::BiasTest test = compare(make_scene(kWidth, kHeight));
+    EXPECT_TRUE(test.passes()) << "frame " << test.frame << ", cell " << test.largest_cell << ", chi^2 "
+                               << test.chi_square << " of " << test.cells;
+    EXPECT_FALSE(compare(make_mutant(kWidth, kHeight)).passes());
+    // A map that is a little brighter.
+    scene::Scene brighter = make_scene(kWidth, kHeight);
+    brighter.lights.of<scene::EnvironmentLight>().front().radiance = {0.52f, 1.04f, 0.416f};
+    EXPECT_FALSE(compare(brighter).passes());
+}
+
+TEST(EnvironmentRecords, HaveTheWordsOfMaps) {
+    render_vulkan::LightRecords records = render_vulkan::make_light_records(make_scene(4, 4));
+    EXPECT_EQ(records.polygon_slots, 8) << "the slots of the only shaders for environments";
+    EXPECT_EQ(sizeof(std::uint32_t) * records.array_at(interface::kEnvironmentLightsBinding).words.size(),
+              3 * sizeof(interface::EnvironmentLightRecord));
+    const std::size_t of_texels = 3 * (32 * 32 + 16 * 16);
+    EXPECT_GT(records.array_at(interface::kEmissionWordsBinding).words.size(), of_texels);
+}
+
+TEST(EnvironmentRecords, RefusePortals) {
+    scene::Scene scene = make_scene(4, 4);
+    scene.lights.of<scene::EnvironmentLight>().front().portal = {{0, 0, 3}, {1, 0, 3}, {0, 1, 3}};
+    try {
+        static_cast<void>(render_vulkan::make_light_records(scene));
+        ADD_FAILURE() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "environments with a portal are not supported on GPUs; use --backend cpu");
+    }
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test
