@@ -158,18 +158,18 @@ struct TexturedLobe {
         return {plane_of<Real>(views, i), textured_light<Texture, n>(), {lobe<Real>()}};
     }
 };
-template <int n>
+template <class Number, int n>
 struct Environment {
-    using Real = float;
-    static EnvironmentCosine<float, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of<float>(views, i)};
+    using Real = Number;
+    static EnvironmentCosine<Real, n> make(const EmissionViews& views, int i) {
+        return {environment<n>(), frame_of<Real>(views, i)};
     }
 };
-template <int n>
+template <class Number, int n>
 struct EnvironmentLobe {
-    using Real = float;
-    static EnvironmentLtc<float, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of<float>(views, i), {lobe<float>()}};
+    using Real = Number;
+    static EnvironmentLtc<Real, n> make(const EmissionViews& views, int i) {
+        return {environment<n>(), frame_of<Real>(views, i), {lobe<Real>()}};
     }
 };
 template <int n>
@@ -235,9 +235,12 @@ inline constexpr EmissionTechnique kTechniques[] = {
     row<Textured<Packed, Busy, 8, DescentByProduct>>("packs: texture, 8 x 8, busy, product"),
     row<Textured<Packed, Smooth, 8>>("packs: texture, 8 x 8, smooth"),
     row<TexturedLobe<Packed, Busy, 8>>("packs: texture, 8 x 8, busy, lobe"),
-    row<Environment<16>>("environment, 16 x 16"),
-    row<Environment<8>>("environment, 8 x 8"),
-    row<EnvironmentLobe<8>>("environment, 8 x 8, lobe"),
+    row<Environment<float, 16>>("environment, 16 x 16"),
+    row<Environment<float, 8>>("environment, 8 x 8"),
+    row<EnvironmentLobe<float, 8>>("environment, 8 x 8, lobe"),
+    row<Environment<Packed, 16>>("packs: environment, 16 x 16"),
+    row<Environment<Packed, 8>>("packs: environment, 8 x 8"),
+    row<EnvironmentLobe<Packed, 8>>("packs: environment, 8 x 8, lobe"),
     row<Portal<8>>("portal, 8 x 8"),
     row<Portal<4>>("portal, 4 x 4"),
 };

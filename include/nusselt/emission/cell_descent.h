@@ -16,6 +16,17 @@ struct TexelChoice {
 
 namespace detail {
 
+/// a where the mask is set, else b. Descents go either way at random: scalars do not branch.
+template <class Real>
+NUSSELT_INLINE Real select_of_two(const mask_t<Real>& mask, const Real& a, const Real& b) noexcept {
+    if constexpr (RealTraits<Real>::kLanes == 1) {
+        const Real both[2] = {b, a};
+        return both[mask];
+    } else {
+        return select(mask, a, b);
+    }
+}
+
 /// Weights of the parts of an element, in the order (0, 0), (1, 0), (0, 1), (1, 1). Those that do not exist weigh nothing.
 template <class Real>
 struct ElementParts {
@@ -25,18 +36,18 @@ struct ElementParts {
     NUSSELT_HD Real column(int i) const noexcept { return weight[i] + weight[2 + i]; }
     /// The weight in one of the columns of a row.
     NUSSELT_HD Real in_row(int row, const mask_t<Real>& second_column) const noexcept {
-        return select(second_column, weight[2 * row + 1], weight[2 * row]);
+        return select_of_two(second_column, weight[2 * row + 1], weight[2 * row]);
     }
 };
 
 /// Whether the second part is chosen: the first one ends at or before u total. Leaves what is left of u.
 template <class Real>
-NUSSELT_HD inline mask_t<Real> choose_of_two(const Real& first, const Real& second, Real& u) noexcept {
+NUSSELT_INLINE mask_t<Real> choose_of_two(const Real& first, const Real& second, Real& u) noexcept {
     const Real target = u * (first + second);
     const auto chosen = (second > Real(0)) & (target >= first);
-    const Real rest = target - select(chosen, first, Real(0));
+    const Real rest = select_of_two<Real>(chosen, target - first, target);
     constexpr scalar_t<Real> kLeast = std::numeric_limits<scalar_t<Real>>::min();
-    u = below_one(rest / select(chosen, second, max(first, Real(kLeast))));
+    u = below_one(rest / select_of_two<Real>(chosen, second, max(first, Real(kLeast))));
     return chosen;
 }
 
@@ -49,11 +60,13 @@ NUSSELT_HD inline Real unite_of_two(const Real& first, const Real& second, const
 }
 
 /// Descends to a texel. With one random number per direction, the order of texels in each direction is kept.
-/// \param parts_of(level, i, j) ElementParts of the element (i, j) of a grid.
-template <class Real, class PartsOf>
+/// \param parts_of(level, i, j)  ElementParts of the element (i, j) of a grid.
+/// \param enter(weight, total) is told the weight of each part that is chosen, and that of all parts of its element.
+/// \returns the texel, without its probability.
+template <class Real, class PartsOf, class Enter>
 NUSSELT_HD inline TexelChoice<Real> descend(const PyramidShape& shape, const index_t<Real>& column,
                                             const index_t<Real>& row, const Vec2<Real>& u,
-                                            const PartsOf& parts_of) noexcept {
+                                            const PartsOf& parts_of, const Enter& enter) noexcept {
     using Index = index_t<Real>;
     TexelChoice<Real> choice{column, row, Real(1), u};
     for (int level = shape.levels - 1; level > 0; --level) {
@@ -62,12 +75,25 @@ NUSSELT_HD inline TexelChoice<Real> descend(const PyramidShape& shape, const ind
         const mask_t<Real> i = choose_of_two(left, right, choice.u.x);
         const Real low = parts.in_row(0, i), high = parts.in_row(1, i);
         const mask_t<Real> j = choose_of_two(low, high, choice.u.y);
-        const Real total = left + right;
-        choice.probability =
-            select(total > Real(0), choice.probability * select(j, high, low) / total, Real(0));
+        enter(select_of_two<Real>(j, high, low), left + right);
         choice.i = Index(parts.columns) * choice.i + select_index<Real>(i, Index(1), Index(0));
         choice.j = Index(parts.rows) * choice.j + select_index<Real>(j, Index(1), Index(0));
     }
+    return choice;
+}
+
+/// \copydoc descend
+/// \returns the texel with its probability, the product of those of all steps.
+template <class Real, class PartsOf>
+NUSSELT_HD inline TexelChoice<Real> descend(const PyramidShape& shape, const index_t<Real>& column,
+                                            const index_t<Real>& row, const Vec2<Real>& u,
+                                            const PartsOf& parts_of) noexcept {
+    Real probability = Real(1);
+    TexelChoice<Real> choice =
+        descend(shape, column, row, u, parts_of, [&](const Real& weight, const Real& total) {
+            probability = select(total > Real(0), probability * weight / total, Real(0));
+        });
+    choice.probability = probability;
     return choice;
 }
 
@@ -114,10 +140,10 @@ NUSSELT_HD inline ElementParts<Real> emitting_parts(const TexturePyramid<scalar_
     const PyramidShape& shape = pyramid.shape;
     const int columns = shape.columns_of(level);
     const int rows = shape.rows_of(level);
-    const int width = shape.width_of(level - 1);
-    const LanePlaces<Real> place = places<Real>(Index(columns) * i, Index(rows) * j, width);
+    const int count = columns * rows;
+    const LanePlaces<Real> place = places<Real>(Index(count) * i, j, count * shape.width_of(level));
     const scalar_t<Real>* const first = pyramid.weight + shape.offset[level - 1];
-    const scalar_t<Real>* const second = first + (rows == 2 ? width : 0);
+    const scalar_t<Real>* const second = first + (count - columns);
     ElementParts<Real> parts{columns,
                              rows,
                              {place.load(first), place.load(first + columns - 1), place.load(second),
@@ -125,6 +151,25 @@ NUSSELT_HD inline ElementParts<Real> emitting_parts(const TexturePyramid<scalar_
     if (columns == 1) parts.weight[1] = parts.weight[3] = Real(0);
     if (rows == 1) parts.weight[2] = parts.weight[3] = Real(0);
     return parts;
+}
+
+/// The weight of texel (i, j), see PyramidShape::index().
+template <class Real>
+NUSSELT_INLINE Real texel_weight(const TexturePyramid<scalar_t<Real>>& pyramid, const index_t<Real>& i,
+                                 const index_t<Real>& j) noexcept {
+    const PyramidShape& shape = pyramid.shape;
+    if constexpr (RealTraits<Real>::kLanes == 1) {
+        return pyramid.at(0, i, j);
+    } else {
+        scalar_t<Real> x[LanePlaces<Real>::kLanes];
+        scalar_t<Real> y[LanePlaces<Real>::kLanes];
+        i.store(x);
+        j.store(y);
+        LanePlaces<Real> place;
+        for (int k = 0; k < LanePlaces<Real>::kLanes; ++k)
+            place.lane[k] = shape.index(0, static_cast<int>(x[k]), static_cast<int>(y[k]));
+        return place.load(pyramid.weight);
+    }
 }
 
 /// The integrand of projected solid angles over a texture, up to a factor: zero below the horizon.
@@ -153,11 +198,15 @@ struct DescentByRadiance {
                                                const detail::index_t<Real>& row,
                                                const Vec2<Real>& u) noexcept {
         using Index = detail::index_t<Real>;
-        TexelChoice<Real> choice =
-            detail::descend(pyramid.shape, column, row, u, [&](int level, const Index& i, const Index& j) {
+        const Real cell = cell_weight<Real>(pyramid, column, row);
+        Real texel = cell;
+        TexelChoice<Real> choice = detail::descend(
+            pyramid.shape, column, row, u,
+            [&](int level, const Index& i, const Index& j) {
                 return detail::emitting_parts<Real>(pyramid, level, i, j);
-            });
-        choice.probability = probability_in<Real>(pyramid, column, row, choice.i, choice.j);
+            },
+            [&](const Real& weight, const Real&) { texel = weight; });
+        choice.probability = probability_in(pyramid.shape, cell, texel);
         return choice;
     }
     template <class Real>
@@ -165,8 +214,9 @@ struct DescentByRadiance {
                                        const TexturePlane<Real>&, const detail::index_t<Real>& i,
                                        const detail::index_t<Real>& j) noexcept {
         const PyramidShape& shape = pyramid.shape;
-        return probability_in<Real>(pyramid, cell_of<Real>(i, shape.width_of(0) / shape.cells),
-                                    cell_of<Real>(j, shape.height_of(0) / shape.cells), i, j);
+        const Real cell = cell_weight<Real>(pyramid, cell_of<Real>(i, shape.width_log2 - shape.cells_log2),
+                                            cell_of<Real>(j, shape.height_log2 - shape.cells_log2));
+        return probability_in(shape, cell, detail::texel_weight<Real>(pyramid, i, j));
     }
     /// \param choice with the texel, and with the random numbers inside of it.
     template <class Real>
@@ -181,31 +231,33 @@ struct DescentByRadiance {
     }
 
 private:
-    /// \param texels per cell, a power of two.
+    /// \param texels_log2 texels per cell.
     template <class Real>
     NUSSELT_INLINE static detail::index_t<Real> cell_of(const detail::index_t<Real>& texel,
-                                                        int texels) noexcept {
+                                                        int texels_log2) noexcept {
         if constexpr (RealTraits<Real>::kLanes == 1)
-            return texel / texels;
+            return texel >> texels_log2;
         else
-            return floor(texel / Real(texels));
+            return floor(texel * Real(scalar_t<Real>(1) / static_cast<scalar_t<Real>>(1 << texels_log2)));
     }
 
     template <class Real>
-    NUSSELT_HD static Real probability_in(const TexturePyramid<scalar_t<Real>>& pyramid,
-                                          const detail::index_t<Real>& column,
-                                          const detail::index_t<Real>& row, const detail::index_t<Real>& i,
-                                          const detail::index_t<Real>& j) noexcept {
-        using T = scalar_t<Real>;
+    NUSSELT_INLINE static Real cell_weight(const TexturePyramid<scalar_t<Real>>& pyramid,
+                                           const detail::index_t<Real>& column,
+                                           const detail::index_t<Real>& row) noexcept {
         const PyramidShape& shape = pyramid.shape;
-        const auto weight = [&](int level, const auto& x, const auto& y) {
-            return detail::places<Real>(x, y, shape.width_of(level))
-                .load(pyramid.weight + shape.offset[level]);
-        };
-        const Real cell = weight(shape.levels - 1, column, row);
-        const auto texels = static_cast<T>(shape.width_of(0) * shape.height_of(0));
-        const T per_cell = texels * (T(1) / static_cast<T>(shape.cells * shape.cells));
-        return select(cell > Real(0), weight(0, i, j) / (cell * Real(per_cell)), Real(0));
+        return detail::places<Real>(column, row, 1 << shape.cells_log2)
+            .load(pyramid.weight + shape.offset[shape.levels - 1]);
+    }
+
+    /// The probability of a texel in a cell, from their mean weights.
+    template <class Real>
+    NUSSELT_INLINE static Real probability_in(const PyramidShape& shape, const Real& cell,
+                                              const Real& texel) noexcept {
+        using T = scalar_t<Real>;
+        const int texels_log2 =
+            (shape.width_log2 - shape.cells_log2) + (shape.height_log2 - shape.cells_log2);
+        return select(cell > Real(0), texel / (cell * Real(static_cast<T>(1 << texels_log2))), Real(0));
     }
 };
 

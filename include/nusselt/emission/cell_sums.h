@@ -148,9 +148,19 @@ private:
     template <class SumAt>
     NUSSELT_INLINE static Index first_above(const Real& target, const SumAt& sum_at) noexcept {
         Index found = Index(0);
-        for (int step = n / 2; step > 0; step /= 2) {
-            const Index next = found + Index(step);
-            found = detail::select_index<Real>(sum_at(next - Index(1)) <= target, next, found);
+        if constexpr (kPoints == 1) {
+            // Comparisons that do not wait for each other: all, or a quarter of the sums at a time.
+            constexpr int kParts = n == 8 ? 8 : 4;
+            for (int step = n / kParts; step > 0; step /= kParts) {
+                int passed = 0;
+                for (int k = 1; k < kParts; ++k) passed += sum_at(found + k * step - 1) <= target ? 1 : 0;
+                found += passed * step;
+            }
+        } else {
+            for (int step = n / 2; step > 0; step /= 2) {
+                const Index next = found + Index(step);
+                found = detail::select_index<Real>(sum_at(next - Index(1)) <= target, next, found);
+            }
         }
         return found;
     }

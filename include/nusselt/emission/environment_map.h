@@ -47,7 +47,7 @@ struct EnvironmentMap {
     NUSSELT_HD int texel_index(int i, int j) const noexcept { return 4 * (j * shape.width_of(1) + i); }
     /// Where the numbers of an element are. \param level at least 2.
     NUSSELT_HD int element_index(int level, int i, int j) const noexcept {
-        return kPerElement * (shape.index(level, i, j) - shape.offset[2]);
+        return kPerElement * (shape.offset[level] - shape.offset[2] + j * shape.width_of(level) + i);
     }
     /// Which part of an element of the next grid an element is.
     NUSSELT_HD static constexpr int part_of(int i, int j) noexcept { return 2 * (j & 1) + (i & 1); }
@@ -64,11 +64,21 @@ struct EnvironmentMap {
     }
 
     /// The interpolated lookups in a texel, averaged over channels.
-    NUSSELT_HD detail::BilinearTexel<T> texel_at(int i, int j) const noexcept {
-        detail::BilinearTexel<T> texel;
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column)
-                texel.value[row][column] = mean_of_channels(radiance.at(i + column - 1, j + row - 1));
+    /// \tparam Real T, or a pack of texels.
+    template <class Real = T>
+    NUSSELT_HD detail::BilinearTexel<Real> texel_at(const detail::index_t<Real>& i,
+                                                    const detail::index_t<Real>& j) const noexcept {
+        constexpr int kLanes = RealTraits<Real>::kLanes;
+        using Index = detail::index_t<Real>;
+        const auto columns = detail::places<Real>(i, Index(0), 0);
+        const auto rows = detail::places<Real>(j, Index(0), 0);
+        T value[9][kLanes];
+        for (int lane = 0; lane < kLanes; ++lane)
+            for (int k = 0; k < 9; ++k)
+                value[k][lane] = mean_of_channels(
+                    radiance.at(columns.lane[lane] + k % 3 - 1, rows.lane[lane] + k / 3 - 1));
+        detail::BilinearTexel<Real> texel;
+        for (int k = 0; k < 9; ++k) texel.value[k / 3][k % 3] = detail::load_lanes<Real>(value[k]);
         return texel;
     }
 

@@ -28,12 +28,12 @@ NUSSELT_INLINE Real number_of(const index_t<Real>& index) noexcept {
     return static_cast<Real>(index);
 }
 
-/// a where the mask is set, else b.
+/// a where the mask is set, else b. Masks of random numbers are random: for scalars, this does not branch.
 template <class Real>
 NUSSELT_INLINE index_t<Real> select_index(const mask_t<Real>& mask, const index_t<Real>& a,
                                           const index_t<Real>& b) noexcept {
     if constexpr (RealTraits<Real>::kLanes == 1)
-        return mask ? a : b;
+        return b ^ ((a ^ b) & -static_cast<int>(mask));
     else
         return select(mask, a, b);
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_BILINEAR_TEXEL_GLSL
 #define NUSSELT_EMISSION_BILINEAR_TEXEL_GLSL
-// Follows include/nusselt/emission/bilinear_texel.h @ 4d3b88567986
+// Follows include/nusselt/emission/bilinear_texel.h @ 422588cf4078
 /// Exact sampling of bilinear interpolation in one texel. Twin of include/nusselt/emission/bilinear_texel.h.
 
 #include "../emission/texel_choice.glsl"

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_CELL_DESCENT_GLSL
 #define NUSSELT_EMISSION_CELL_DESCENT_GLSL
-// Follows include/nusselt/emission/cell_descent.h @ 1cea3dc6b1f8
+// Follows include/nusselt/emission/cell_descent.h @ 79b25b50acfb
 /// How samples descend from a cell of the lattice to a texel: in proportion to what texels emit times the cosine over
 /// the squared distance. Twin of DescentByProduct in include/nusselt/emission/cell_descent.h.
 
@@ -19,9 +19,9 @@ float relative_cosine(TexturePlane plane, float x, float y) {
 /// \param parts pyramid_parts_of()
 vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, ivec2 at, ivec2 parts) {
     uint below = light + textured_light_word(light + kNusseltGrids + uint(level - 1));
-    uint stride = uint(pyramid_size_of(shape, level - 1).x);
-    uint first = below + uint(parts.y * at.y) * stride + uint(parts.x * at.x);
-    uint second = first + (parts.y == 2 ? stride : 0u);
+    uint count = uint(parts.x * parts.y);
+    uint first = below + count * uint(at.y * pyramid_size_of(shape, level).x + at.x);
+    uint second = first + (count - uint(parts.x));
     uint right = uint(parts.x - 1);
     vec4 weight = vec4(textured_light_float(first), textured_light_float(first + right), textured_light_float(second),
                        textured_light_float(second + right));

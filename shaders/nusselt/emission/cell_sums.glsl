@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_CELL_SUMS_GLSL
 #define NUSSELT_EMISSION_CELL_SUMS_GLSL
-// Follows include/nusselt/emission/cell_sums.h @ d0d8b1f2dbaf
+// Follows include/nusselt/emission/cell_sums.h @ db7642934dd0
 /// How samples choose one cell of a lattice: a column, then a cell of it, in proportion to weights. Twin of
 /// include/nusselt/emission/cell_sums.h. Sums over columns are added up again where they are needed: a thread has one
 /// number per cell.

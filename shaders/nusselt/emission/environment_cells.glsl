@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_ENVIRONMENT_CELLS_GLSL
 #define NUSSELT_EMISSION_ENVIRONMENT_CELLS_GLSL
-// Follows include/nusselt/emission/environment_sampling.h @ 8f0ca19cdfd4
+// Follows include/nusselt/emission/environment_sampling.h @ 5ca2cddb10f4
 /// What EnvironmentCosine and EnvironmentLtc share: sums over cells, and points in texels. Twin of EnvironmentSampler
 /// in include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_ENVIRONMENT_COSINE_GLSL
 #define NUSSELT_EMISSION_ENVIRONMENT_COSINE_GLSL
-// Follows include/nusselt/emission/environment_sampling.h @ 8f0ca19cdfd4
+// Follows include/nusselt/emission/environment_sampling.h @ 5ca2cddb10f4
 /// Sampling of environment maps in proportion to radiance times the cosine at the surface. Twin of EnvironmentCosine in
 /// include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_ENVIRONMENT_LTC_GLSL
 #define NUSSELT_EMISSION_ENVIRONMENT_LTC_GLSL
-// Follows include/nusselt/emission/environment_sampling.h @ 8f0ca19cdfd4
+// Follows include/nusselt/emission/environment_sampling.h @ 5ca2cddb10f4
 /// Sampling of environment maps in proportion to radiance times a glossy lobe. Twin of EnvironmentLtc in
 /// include/nusselt/emission/environment_sampling.h, with 8 x 8 cells.
 ///

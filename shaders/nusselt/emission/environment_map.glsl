@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_ENVIRONMENT_MAP_GLSL
 #define NUSSELT_EMISSION_ENVIRONMENT_MAP_GLSL
-// Follows include/nusselt/emission/environment_map.h @ 8b46d0aeda5b
+// Follows include/nusselt/emission/environment_map.h @ 438c227aae64
 // Follows include/nusselt/emission/environment_map_words.h @ f237a5545f0e
 /// What sampling needs to know about an environment map, from its texels and from the words that EnvironmentMapWords of
 /// C++ writes once per map. Twin of include/nusselt/emission/environment_map.h and environment_map_words.h.

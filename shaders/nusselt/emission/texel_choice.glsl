@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TEXEL_CHOICE_GLSL
 #define NUSSELT_EMISSION_TEXEL_CHOICE_GLSL
-// Follows include/nusselt/emission/cell_descent.h @ 1cea3dc6b1f8
+// Follows include/nusselt/emission/cell_descent.h @ 79b25b50acfb
 /// Single steps of descents from a cell of a lattice to a texel. Twin of descend() and ascend() in
 /// include/nusselt/emission/cell_descent.h.
 

@@ -2,7 +2,7 @@
 #define NUSSELT_EMISSION_TEXTURED_LIGHT_GLSL
 // Follows include/nusselt/emission/textured_light.h @ 6905f8c26fe6
 // Follows include/nusselt/emission/textured_light_words.h @ 1f30388c693b
-// Follows include/nusselt/emission/texture_pyramid.h @ fb50e6db8c69
+// Follows include/nusselt/emission/texture_pyramid.h @ 7949c5c6567f
 /// What sampling needs to know about a polygon with a texture, from the words that TexturedLightWords of C++ writes
 /// once per light. Twin of include/nusselt/emission/textured_light.h, texture_pyramid.h and textured_light_words.h.
 ///

@@ -1,11 +1,11 @@
 /// Tests of sampling of polygons with textures in packs: each lane does what a scalar does for the same view of the light.
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "emission/pack_comparison.h"
 #include "emission/textured_lights.h"
 #include "ltc/lobes.h"
 
@@ -96,27 +96,6 @@ using Variants = ::testing::Types<
     Variant<double, 16, DescentByRadiance, ProjectedCells>,
     Variant<double, 8, DescentByProduct, ProjectedCells>, Variant<double, 8, DescentByProduct, LobeCells>>;
 TYPED_TEST_SUITE(TexturedPacks, Variants);
-
-/// Counts lanes that differ from scalars by more than rounding.
-template <class T>
-class Comparison {
-public:
-    void add(T scalar, T lane) {
-        ++count_;
-        const T largest = std::max({std::fabs(scalar), std::fabs(lane), T(1e-6)});
-        if (!(std::fabs(scalar - lane) <= kTolerance * largest)) ++different_;
-    }
-    /// Rounding may lead to another texel, whose density differs.
-    void expect_agreement() const {
-        EXPECT_GT(count_, 3000);
-        EXPECT_LT(different_, count_ / 500) << "of " << count_;
-    }
-
-private:
-    static constexpr T kTolerance = 4096 * std::numeric_limits<T>::epsilon();
-    int count_ = 0;
-    int different_ = 0;
-};
 
 TYPED_TEST(TexturedPacks, DoWhatScalarsDo) {
     using T = typename TypeParam::T;

@@ -10,8 +10,8 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-using DiffuseCells = EnvironmentCosine<float, render_cpu::kEnvironmentCells>;
-using SpecularCells = EnvironmentLtc<float, render_cpu::kEnvironmentCells>;
+using DiffuseCells = EnvironmentCosine<Real, render_cpu::kEnvironmentCells>;
+using SpecularCells = EnvironmentLtc<Real, render_cpu::kEnvironmentCells>;
 
 /// All directions. Shadow rays end beyond the scene, from any of its points.
 struct Sky {
@@ -112,21 +112,28 @@ public:
                  to_map(record, surface.frame.n)},
           distance_(distance) {}
 
-    LaneTechniques<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
-        return {lanes, [&](int lane) { return DiffuseCells(map_, single_lane<Frame<float>>(frame_, lane)); }};
+    PackTechnique<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, DiffuseCells(map_, frame_)};
     }
-    LaneTechniques<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
-        return {lanes, [&](int lane) {
-                    return SpecularCells(map_, single_lane<Frame<float>>(frame_, lane),
-                                         {single_lane<Ltc<float>>(lobe, lane)});
-                }};
+    PackTechnique<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, SpecularCells(map_, frame_, {lobe})};
     }
-    Vec3<float> radiance(const TexturedSample<float>& sample, int /*lane*/) const noexcept {
-        return map_.radiance.lookup(sample.at);
+    Vector radiance(const TexturedSample<Real>& sample) const noexcept {
+        Lanes result;
+        float x[kLanes], y[kLanes];
+        sample.at.x.store(x);
+        sample.at.y.store(y);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const Vec3<float> value = map_.radiance.lookup(Vec2<float>{x[lane], y[lane]});
+            result.x[lane] = value.x;
+            result.y[lane] = value.y;
+            result.z[lane] = value.z;
+        }
+        return load(result);
     }
-    Vec3<float> point(const TexturedSample<float>& sample) const noexcept { return distance_ * sample.wi; }
+    Vector point(const TexturedSample<Real>& sample) const noexcept { return Real(distance_) * sample.wi; }
     template <class Technique>
-    float density(const Technique& technique, const TexturedSample<float>& sample) const noexcept {
+    Real density(const Technique& technique, const TexturedSample<Real>& sample) const noexcept {
         return technique.pdf_at(sample.at);
     }
 
