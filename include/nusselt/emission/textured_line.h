@@ -27,16 +27,13 @@ template <class T>
 struct ProjectedLines {
     static constexpr T kIntegral = 1 / kPi<T>; ///< of the normalised component, over the measure
 
-    template <class Real>
-    NUSSELT_HD auto technique_for(const LineSegment<Real>& part) const noexcept {
-        return LineProjectedSolidAngle<Real>(part);
+    NUSSELT_HD auto technique_for(const LineSegment<T>& part) const noexcept {
+        return LineProjectedSolidAngle<T>(part);
     }
-    template <class Real>
-    NUSSELT_HD Real measure_of(const LineSegment<Real>& part) const noexcept {
-        return projected_solid_angle(part);
-    }
-    /// Positive where a point counts, and linear along lines.
-    NUSSELT_HD Vec2<T> heights(const Vec3<T>& p) const noexcept { return {p.z, p.z}; }
+    /// The line in the space where measures are projected solid angles. \param line with coordinates of order one
+    NUSSELT_HD LineSegment<T> image_of(const LineSegment<T>& line) const noexcept { return line; }
+    /// Measures of parts of a line over projected solid angles of their images. \param line with coordinates of order one
+    NUSSELT_HD T ratio_for(const LineSegment<T>& /*line*/) const noexcept { return T(1); }
 };
 
 /// The measure of cells for glossy surfaces: the integral of a lobe above the horizon, per radius. Samples are not below it.
@@ -45,16 +42,20 @@ struct LobeLines {
     static constexpr T kIntegral = 1; ///< \copydoc ProjectedLines::kIntegral
     Ltc<T> ltc;
 
-    template <class Real>
-    NUSSELT_HD auto technique_for(const LineSegment<Real>& part) const noexcept {
-        return LineClippedLtc<Real>(part, Ltc<Real>(ltc));
+    NUSSELT_HD auto technique_for(const LineSegment<T>& part) const noexcept {
+        return LineClippedLtc<T>(part, ltc);
     }
-    template <class Real>
-    NUSSELT_HD Real measure_of(const LineSegment<Real>& part) const noexcept {
-        return technique_for(part).measure();
+    /// \copydoc ProjectedLines::image_of
+    NUSSELT_HD LineSegment<T> image_of(const LineSegment<T>& line) const noexcept {
+        return to_cosine_space(line, ltc);
     }
-    /// \copydoc ProjectedLines::heights
-    NUSSELT_HD Vec2<T> heights(const Vec3<T>& p) const noexcept { return {p.z, ltc.to_cosine(p).z}; }
+    /// \copydoc ProjectedLines::ratio_for
+    NUSSELT_HD T ratio_for(const LineSegment<T>& line) const noexcept {
+        const T thicker = kPi<T> * radius_ratio(cross(line.p0, line.s), ltc);
+        const T ratio = T(1) / thicker;
+        return thicker > T(0) && is_finite(ratio) && centered(to_safe_extent(line)).length > T(0) ? ratio
+                                                                                                  : T(0);
+    }
 };
 
 /// \tparam T       float, double or long double. One light and shading point at a time: cells are lanes.
@@ -76,25 +77,29 @@ public:
     /// \param measure with the lobe, if there is one.
     NUSSELT_HD TexturedLine(const LineSegment<T>& light, const Profile& profile,
                             const Measure& measure = {}) noexcept
-        : profile_(&profile), measure_(measure), safe_(to_safe_extent(light)), lit_(lit_part()) {
+        : profile_(&profile), measure_(measure), safe_(to_safe_extent(light)) {
+        // Parts of the line have the same lengths in its image, up to a factor.
+        const LineSegment<T> image = measure_.image_of(safe_.line);
+        const T scale = safe_.scale * measure_.ratio_for(safe_.line);
+        lit_ = part_above(safe_.line, part_above(image, {T(0), T(1)}));
         using Lanes = detail::CellLanes<T>;
         using L = typename Lanes::Type;
         T total = T(0);
         Vec3<T> expected{T(0), T(0), T(0)};
-        const Vec3<L> p0 = broadcast<L>(safe_.line.p0);
-        const Vec3<L> s = broadcast<L>(safe_.line.s);
+        const Vec3<L> p0 = broadcast<L>(image.p0);
+        const Vec3<L> s = broadcast<L>(image.s);
         for (int first = 0; first < profile.cells; first += Lanes::kCount) {
             // Cut the cells to the part that counts.
             const L low = Lanes::load(profile.border + first);
             const L high = Lanes::load(profile.border + first + 1);
             const L begin = min(max(low, L(lit_.begin)), high);
             const L end = max(min(high, L(lit_.end)), begin);
-            const L length = L(safe_.line.length) * (end - begin);
-            const L measures =
-                measure_.measure_of(LineSegment<L>{fma(L(safe_.line.length) * begin, s, p0), s, length});
+            const L length = L(image.length) * (end - begin);
+            const L angles =
+                projected_solid_angle(LineSegment<L>{fma(L(image.length) * begin, s, p0), s, length});
             T share[Lanes::kCount], from[Lanes::kCount], to[Lanes::kCount];
             const L inverse = L(T(1)) / select(high > low, high - low, L(T(1)));
-            Lanes::store(share, L(safe_.scale) * measures);
+            Lanes::store(share, L(scale) * angles);
             Lanes::store(from, (begin - low) * inverse);
             Lanes::store(to, (end - low) * inverse);
             for (int i = 0; i < Lanes::kCount; ++i) {
@@ -182,13 +187,10 @@ private:
         return fma(at * safe_.line.length, safe_.line.s, safe_.line.p0);
     }
 
-    /// The part of the line where all heights are positive.
-    NUSSELT_HD Part lit_part() const noexcept {
-        const Vec2<T> start = measure_.heights(safe_.line.p0);
-        const Vec2<T> end = measure_.heights(end_of(safe_.line));
-        return part_above(start.x, end.x, part_above(start.y, end.y, {T(0), T(1)}));
-    }
-    NUSSELT_HD static Part part_above(const T& start, const T& end, const Part& part) noexcept {
+    /// What is above the horizon of a part of a line.
+    NUSSELT_HD static Part part_above(const LineSegment<T>& line, const Part& part) noexcept {
+        const T start = line.p0.z;
+        const T end = end_of(line).z;
         if (start <= T(0) && end <= T(0)) return {T(0), T(0)};
         if (start >= T(0) && end >= T(0)) return part;
         const T crossing = start / (start - end);
