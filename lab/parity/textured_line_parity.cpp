@@ -27,8 +27,10 @@ LineProfile<Exact> widened(const ShaderLineProfile& profile) {
     result.cells = profile.cells;
     for (int k = 0; k <= profile.kSlots; ++k) {
         result.border[k] = profile.border[k];
-        result.radiance[k] = broadcast<Exact>(profile.radiance[k]);
-        result.value[k] = mean_of_channels(result.radiance[k]);
+        for (int channel = 0; channel < 3; ++channel)
+            result.radiance[channel][k] = profile.radiance[channel][k];
+        result.value[k] = mean_of_channels(
+            Vec3<Exact>{result.radiance[0][k], result.radiance[1][k], result.radiance[2][k]});
         if (k > 0)
             result.before[k] = result.before[k - 1] + (result.border[k] - result.border[k - 1]) / 2 *
                                                           (result.value[k - 1] + result.value[k]);

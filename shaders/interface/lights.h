@@ -13,6 +13,9 @@ namespace nusselt::interface {
 using uint = std::uint32_t;
 #endif
 
+/// In place of the number of an emission word: there are none.
+const uint kNoWords = 0xffffffffu;
+
 // Kinds are numbered from 0 without gaps.
 const int kPolygonKind = 0;
 const int kLineKind = 1;
@@ -24,11 +27,13 @@ const int kLightKinds = 4;
 const int kPolygonsConstant = kFirstLightConstant;
 const int kLinesConstant = kFirstLightConstant + 1; ///< and strips
 const int kTubesConstant = kFirstLightConstant + 2; ///< solid or open
+const int kTexturedLinesConstant = kFirstLightConstant + 11; ///< and strips, whose radiance varies along them
+const int kTexturedTubesConstant = kFirstLightConstant + 12;
 const int kPointsConstant = kFirstLightConstant + 3;
 const int kPointImagesConstant = kFirstLightConstant + 4; ///< points whose intensity comes from an image
 const int kDistantsConstant = kFirstLightConstant + 5;
 const int kTexturedPolygonsConstant = kFirstLightConstant + 6; ///< polygons that emit an image
-const int kConstantCount = kFirstLightConstant + 7;
+const int kConstantCount = kFirstLightConstant + 13;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -75,7 +80,9 @@ struct LineLightRecord {
     float radius;
     uint model;
     float normal[3]; ///< of strips
-    float radiance[3];
+    float radiance[3]; ///< the mean if it varies
+    float inverse_mean[3];   ///< of the radiance; 0 for channels that are black everywhere
+    uint first_profile_word; ///< emission word that its LineProfileWords begin with; kNoWords for uniform radiance
 };
 
 // Values of PointLightRecord::distribution, those of scene::PointDistribution.

@@ -27,9 +27,8 @@ struct LineProfileWords {
     NUSSELT_HD static void write(const ShaderLineProfile& profile, std::uint32_t* words) noexcept {
         words[kCells] = static_cast<std::uint32_t>(profile.cells);
         for (int k = 0; k <= profile.cells; ++k) {
-            const Vec3<float>& radiance = profile.radiance[k];
-            const float numbers[kBorderWords] = {profile.border[k], profile.before[k], radiance.x, radiance.y,
-                                                 radiance.z};
+            const float numbers[kBorderWords] = {profile.border[k], profile.before[k], profile.radiance[0][k],
+                                                 profile.radiance[1][k], profile.radiance[2][k]};
             std::memcpy(words + kBorders + kBorderWords * k, numbers, sizeof numbers);
         }
     }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
-// Follows include/nusselt/emission/textured_line.h @ 0f8a5bfe60c9
+// Follows include/nusselt/emission/textured_line.h @ 781e8b8bb78a
 /// What TexturedLine and TexturedLineLtc share: they choose a cell in proportion to the mean of radiance at both ends times the
 /// closed form of its measure, and a point in the cell by a linear density. Twin of include/nusselt/emission/textured_line.h.
 

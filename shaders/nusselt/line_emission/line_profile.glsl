@@ -1,7 +1,7 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
-// Follows include/nusselt/emission/line_profile.h @ 9fb2426e1ecf
-// Follows include/nusselt/emission/line_profile_words.h @ 78e63e40997b
+// Follows include/nusselt/emission/line_profile.h @ f7f1111427b5
+// Follows include/nusselt/emission/line_profile_words.h @ 57b7d6d8516e
 /// Radiance that varies along linear lights and tubes, from the words that LineProfileWords of C++ writes once per light. Twin of
 /// include/nusselt/emission/line_profile.h and line_profile_words.h.
 ///
@@ -14,6 +14,7 @@
 /// A profile is known by the number of its first word.
 
 #include "../emission/textured_sample.glsl"
+#include "../geometry/line_segment.glsl"
 
 /// Word number `at` of all profiles.
 uint line_profile_word(uint at);
@@ -43,6 +44,13 @@ vec3 line_profile_radiance(uint profile, int k) {
 }
 /// The same, averaged over channels.
 float line_profile_value(uint profile, int k) { return mean_of_channels(line_profile_radiance(profile, k)); }
+
+/// The share of a line before the point next to p, in [0, 1].
+float place_along(LineSegment line, vec3 p) {
+    float at = dot(p - line.p0, line.s) / (line.len > 0.0 ? line.len : 1.0);
+    // Comparisons with NaN are false.
+    return at > 0.0 ? nusselt_min(at, 1.0) : 0.0;
+}
 
 /// The cell at a point. \param x in [0, 1]
 int line_profile_cell_at(uint profile, float x) {

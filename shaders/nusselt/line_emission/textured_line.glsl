@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_LINE_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_LINE_GLSL
-// Follows include/nusselt/emission/textured_line.h @ 0f8a5bfe60c9
+// Follows include/nusselt/emission/textured_line.h @ 781e8b8bb78a
 /// Sampling of linear lights whose radiance varies along them, in proportion to radiance times the cosine at the surface. Twin of
 /// TexturedLine in include/nusselt/emission/textured_line.h, for profiles of up to 64 texels.
 ///
@@ -18,15 +18,10 @@ struct TexturedLine {
 
 /// \param light   in shading space [m].
 /// \param profile number of its first word (line_profile.glsl).
-LineCells textured_line_cells(LineSegment light, uint profile) {
+TexturedLine textured_line_prepare(LineSegment light, uint profile) {
     float scale = scale_of(light);
     LineSegment line = scaled(light, scale);
-    return line_cells_prepare(line, line, 1.0, scale, profile);
-}
-
-/// See textured_line_cells().
-TexturedLine textured_line_prepare(LineSegment light, uint profile) {
-    return TexturedLine(textured_line_cells(light, profile));
+    return TexturedLine(line_cells_prepare(line, line, 1.0, scale, profile));
 }
 
 /// The technique in a cell.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_LINE_LTC_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_LINE_LTC_GLSL
-// Follows include/nusselt/emission/textured_line.h @ 0f8a5bfe60c9
+// Follows include/nusselt/emission/textured_line.h @ 781e8b8bb78a
 /// Sampling of linear lights whose radiance varies along them, in proportion to radiance times a glossy lobe. Twin of
 /// TexturedLineLtc in include/nusselt/emission/textured_line.h, for profiles of up to 64 texels.
 ///
@@ -17,20 +17,22 @@ struct TexturedLineLtc {
     Ltc ltc;
 };
 
-/// \param light   in shading space [m].
-/// \param profile number of its first word (line_profile.glsl).
-LineCells textured_line_ltc_cells(LineSegment light, uint profile, Ltc ltc) {
-    float scale = scale_of(light);
-    LineSegment line = scaled(light, scale);
+/// Integrals of the lobe over parts of a line, over projected solid angles of their images.
+/// \param line with coordinates of order one.
+float textured_line_ltc_ratio(LineSegment line, Ltc ltc) {
     float thicker = kNusseltPi * radius_ratio(nusselt_cross(line.p0, line.s), ltc);
     float ratio = 1.0 / (thicker > 0.0 ? thicker : 1.0);
-    bool seen = thicker > 0.0 && is_finite(ratio) && centered(line).len > 0.0;
-    return line_cells_prepare(line, to_cosine_space(line, ltc), seen ? ratio : 0.0, scale, profile);
+    return thicker > 0.0 && is_finite(ratio) && centered(line).len > 0.0 ? ratio : 0.0;
 }
 
-/// See textured_line_ltc_cells().
+/// \param light   in shading space [m].
+/// \param profile number of its first word (line_profile.glsl).
 TexturedLineLtc textured_line_ltc_prepare(LineSegment light, uint profile, Ltc ltc) {
-    return TexturedLineLtc(textured_line_ltc_cells(light, profile, ltc), ltc);
+    float scale = scale_of(light);
+    LineSegment line = scaled(light, scale);
+    return TexturedLineLtc(line_cells_prepare(line, to_cosine_space(line, ltc), textured_line_ltc_ratio(line, ltc),
+                                              scale, profile),
+                           ltc);
 }
 
 /// The technique in a cell.

@@ -25,13 +25,6 @@ float tube_warp_node(int i) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-/// The share of the axis before a point.
-float tube_place(LineSegment axis, vec3 p) {
-    float at = dot(p - axis.p0, axis.s) / (axis.len > 0.0 ? axis.len : 1.0);
-    // Comparisons with NaN are false.
-    return at > 0.0 ? nusselt_min(at, 1.0) : 0.0;
-}
-
 /// Mean radiance between two places, over that of the profile. \param mean of the profile
 float tube_relative_radiance(uint profile, float mean, float from, float to) {
     float least = nusselt_min(from, to);
@@ -52,14 +45,14 @@ TubeWarp tube_warp_prepare(CylinderFan fan, float inverse_scale, LineSegment axi
     TubeWarp self;
     float mean = line_profile_below(profile, 1.0);
     CylinderHalfPlane half_plane = cylinder_fan_half_plane(fan, 0.5);
-    float before = tube_place(axis, inverse_scale * cylinder_fan_point_in(fan, half_plane, 0.0));
+    float before = place_along(axis, inverse_scale * cylinder_fan_point_in(fan, half_plane, 0.0));
     float here = before;
     for (int i = 0; i < kNusseltTubeNodes; ++i) {
         // At both ends, the neighbour that is missing is the node itself.
         float next = here;
         if (i + 1 < kNusseltTubeNodes) {
             float y = below_one(tube_warp_node(i + 1));
-            next = tube_place(axis, inverse_scale * cylinder_fan_point_in(fan, half_plane, y));
+            next = place_along(axis, inverse_scale * cylinder_fan_point_in(fan, half_plane, y));
         }
         self.value[i] = tube_relative_radiance(profile, mean, 0.5 * (before + here), 0.5 * (here + next));
         self.below[i] = 0.0;

@@ -14,6 +14,6 @@ void main() {
     const LightSample s = technique_sample(technique, vec2(inputs[random], inputs[random + 1u]));
     const float measure = technique_measure(technique);
     write_along(i, s.wi, s.pdf,
-                AlongLine(0.0, tube_place(light.axis, s.p), measure, technique_pdf(technique, s.wi),
+                AlongLine(0.0, place_along(light.axis, s.p), measure, technique_pdf(technique, s.wi),
                           technique_invert(technique, s.wi), measure));
 }

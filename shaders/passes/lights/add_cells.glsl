@@ -11,7 +11,8 @@
 
 /// \param number    of the light
 /// \param is_paired whether there is a technique 1
-void add_cells(inout Estimate estimate, uint number, CELLS cells, bool is_paired) {
+/// \param emission  a factor of what the light emits
+void add_cells(inout Estimate estimate, uint number, CELLS cells, bool is_paired, vec3 emission) {
     estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
     TechniquePair pair;
     if (is_paired)
@@ -36,5 +37,5 @@ void add_cells(inout Estimate estimate, uint number, CELLS cells, bool is_paired
             add_sample(estimate, result);
         }
     }
-    estimate.radiance += (1.0 / float(frame.light_samples)) * estimate.sum.sum;
+    estimate.radiance += (1.0 / float(frame.light_samples) * emission) * estimate.sum.sum;
 }

@@ -52,7 +52,7 @@ void add_polygon(inout Estimate estimate, LocalPolygon light) {
     if (!light.role.is_lit) return;
     GlossySurface glossy = estimate.reflection.glossy;
     bool is_paired = kHasCellPairs && glossy_surface_is_glossy(glossy);
-    add_cells(estimate, light.role.number, prepare_cells(light, glossy.lobe, is_paired), is_paired);
+    add_cells(estimate, light.role.number, prepare_cells(light, glossy.lobe, is_paired), is_paired, vec3(1.0));
 }
 
 #endif
