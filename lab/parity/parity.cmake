@@ -10,6 +10,7 @@ add_library(nusselt_lab_parity STATIC
     parity/parity_check.cpp
     parity/shader_runner.cpp
     parity/techniques.cpp
+    parity/textured_line_parity.cpp
     parity/textured_parity.cpp
     parity/twin_shader.cpp
     parity/vertex_bounds.cpp
@@ -49,7 +50,8 @@ set(bounds_of_textured_polygon 8)
 set(bounds_of_textured_polygon_on_lobe 8)
 set(bounds_of_windowed_polygon 8)
 set(bounds_of_windowed_polygon_on_lobe 8)
-foreach(light line line_on_lobe cylinder cylinder_on_lobe environment environment_on_lobe)
+foreach(light line line_on_lobe cylinder cylinder_on_lobe environment environment_on_lobe
+    textured_line textured_line_on_lobe textured_tube textured_tube_on_lobe)
     set(bounds_of_${light} 2)
 endforeach()
 foreach(name IN LISTS nusselt_techniques)
@@ -60,12 +62,16 @@ foreach(name IN LISTS nusselt_techniques)
     endif()
     nusselt_geometry_of(light ${name})
     nusselt_shader_arguments(arguments ${name})
+    set(entry ${light})
+    if(light MATCHES "^textured|^windowed|^environment")
+        set(entry emission/${light})
+    endif()
     set(bounds ${bounds_of_${${row}_light}})
     if(${row}_clips_twice)
         list(TRANSFORM bounds REPLACE 8 7)
     endif()
     foreach(bound IN LISTS bounds)
-        add_twin(nusselt_lab_parity ${name} ${name} ${bound} ${light} ${arguments})
+        add_twin(nusselt_lab_parity ${name} ${name} ${bound} ${entry} ${arguments})
     endforeach()
 endforeach()
 

@@ -40,9 +40,9 @@ const char* reason_of_vacuous_budget(const std::string& where) {
 
 std::vector<ParityCase> parity_cases() {
     std::vector<ParityCase> cases;
-    for (const auto add :
-         {add_technique_cases, add_textured_cases, add_environment_cases, add_windowed_cases,
-          add_vertex_bound_cases, add_function_cases, add_ltc_cases, add_estimate_cases, add_random_cases})
+    for (const auto add : {add_technique_cases, add_textured_cases, add_textured_line_cases,
+                           add_environment_cases, add_windowed_cases, add_vertex_bound_cases,
+                           add_function_cases, add_ltc_cases, add_estimate_cases, add_random_cases})
         add(cases);
     return cases;
 }

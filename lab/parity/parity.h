@@ -51,6 +51,7 @@ const char* reason_of_vacuous_budget(const std::string& where);
 /// The cases of each subject, for parity_cases().
 void add_technique_cases(std::vector<ParityCase>& cases);
 void add_textured_cases(std::vector<ParityCase>& cases);
+void add_textured_line_cases(std::vector<ParityCase>& cases);
 void add_environment_cases(std::vector<ParityCase>& cases);
 void add_windowed_cases(std::vector<ParityCase>& cases);
 void add_vertex_bound_cases(std::vector<ParityCase>& cases);

@@ -34,7 +34,9 @@ const int kDistantsConstant = kFirstLightConstant + 5;
 const int kTexturedPolygonsConstant = kFirstLightConstant + 6; ///< polygons that emit an image
 const int kUniformEnvironmentsConstant = kFirstLightConstant + 7;
 const int kMappedEnvironmentsConstant = kFirstLightConstant + 8;
-const int kConstantCount = kFirstLightConstant + 9;
+const int kTexturedLinesConstant = kFirstLightConstant + 9; ///< and strips, whose radiance varies along them
+const int kTexturedTubesConstant = kFirstLightConstant + 10;
+const int kConstantCount = kFirstLightConstant + 11;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -82,7 +84,9 @@ struct LineLightRecord {
     float radius;
     uint model;
     float normal[3]; ///< of strips
-    float radiance[3];
+    float radiance[3]; ///< the mean if it varies
+    float inverse_mean[3];   ///< of the radiance; 0 for channels that are black everywhere
+    uint first_profile_word; ///< emission word that its LineProfileWords begin with; kNoWords for uniform radiance
 };
 
 // Values of PointLightRecord::distribution, those of scene::PointDistribution.

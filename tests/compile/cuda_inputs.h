@@ -150,3 +150,43 @@ template <class Technique>
 __device__ void use_environment_on_lobe(const Inputs& inputs, float* result) {
     use_map<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
 }
+
+/// A line or tube whose radiance varies along it; the kernel makes its profile, too.
+__device__ inline nusselt::LineProfile<float> profile_of(const Inputs& inputs) {
+    return nusselt::make_line_profile(inputs.corners, 4);
+}
+template <class Technique, class... Lobe>
+__device__ void use_textured_segment(const Inputs& inputs, float* result, const Lobe&... lobe) {
+    const int i = thread_index();
+    const auto profile = profile_of(inputs);
+    const Technique technique(local_line(inputs, i), profile, {lobe...});
+    const auto sample = technique.sample(inputs.u[i].x);
+    result[i] = technique.pdf(sample.wi) - sample.pdf + technique.invert(sample.wi) + technique.measure() +
+                technique.pdf_at(sample.at) + technique.unshadowed().x + profile.lookup(sample.at).y;
+}
+template <class Technique>
+__device__ void use_textured_line(const Inputs& inputs, float* result) {
+    use_textured_segment<Technique>(inputs, result);
+}
+template <class Technique>
+__device__ void use_textured_line_on_lobe(const Inputs& inputs, float* result) {
+    use_textured_segment<Technique>(inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
+}
+
+template <class Technique, class Uniform, class... Lobe>
+__device__ void use_textured_cylinder(const Inputs& inputs, float* result, const Lobe&... lobe) {
+    const int i = thread_index();
+    const auto light = local_cylinder(inputs, i);
+    const Technique technique(Uniform(light, lobe...), light, profile_of(inputs));
+    const auto sample = technique.sample(inputs.u[i]);
+    result[i] = technique.pdf(sample.wi) - sample.pdf + technique.invert(sample.wi).x + technique.measure();
+}
+template <class Technique>
+__device__ void use_textured_tube(const Inputs& inputs, float* result) {
+    use_textured_cylinder<Technique, nusselt::CylinderProjectedSolidAngle<float>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_textured_tube_on_lobe(const Inputs& inputs, float* result) {
+    use_textured_cylinder<Technique, nusselt::CylinderLtc<float>>(
+        inputs, result, nusselt::Ltc<float>({1, 0.2f, 0.9f, 0, 0.4f, 1}));
+}

@@ -101,6 +101,22 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     };
     EXPECT_EQ(shapes_with(scene::TubeModel::strip), std::vector<int>{interface::kLinesConstant});
     EXPECT_EQ(shapes_with(scene::TubeModel::open), std::vector<int>{interface::kTubesConstant});
+    const auto shapes_with_texture = [&](scene::TubeModel model) {
+        scene::Scene other = render_test::make_floor(4);
+        auto texture = std::make_shared<scene::EmissionTexture>();
+        texture->width = 1;
+        texture->height = 2;
+        texture->texels = {{1, 1, 1}, {3, 3, 3}};
+        other.emission_textures = {{texture, {}, {2, 2, 2}}};
+        other.lights.of<scene::LineLight>() = {line};
+        other.lights.of<scene::LineLight>()[0].model = model;
+        other.lights.of<scene::LineLight>()[0].texture = 0;
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_texture(scene::TubeModel::linear),
+              std::vector<int>{interface::kTexturedLinesConstant});
+    EXPECT_EQ(shapes_with_texture(scene::TubeModel::solid),
+              std::vector<int>{interface::kTexturedTubesConstant});
     scene.lights.of<scene::PolygonLight>().resize(1);
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
                                                   interface::kTubesConstant}));

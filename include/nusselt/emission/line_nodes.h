@@ -18,7 +18,7 @@ struct LineNodes {
     T border[kSlots + 1]; ///< where cells begin, from 0 to 1; 1 for all further ones
     T value[kSlots +
             1]; ///< radiance at borders, averaged over channels, and a little more: see make_line_nodes()
-    Vec3<T> radiance[kSlots + 1]; ///< the same per channel, without more [W/(sr m^2)]
+    T radiance[3][kSlots + 1]; ///< the same per channel, without more [W/(sr m^2)]
 
     /// The cell at a point. \param x in [0, 1]
     NUSSELT_HD int cell_at(const T& x) const noexcept {
@@ -65,10 +65,14 @@ NUSSELT_HD inline LineNodes<T, n> make_line_nodes(const LineSegment<T>& light, c
     }
     for (int k = 1; k < n && !is_increasing; ++k) nodes.border[k] = static_cast<T>(k) / static_cast<T>(n);
     T largest = typical;
+    Vec3<T> here{};
     for (int k = 0; k <= Nodes::kSlots; ++k) {
         const Vec3<T> p = fma(nodes.border[k] * light.length, light.s, light.p0);
-        nodes.radiance[k] = k <= n ? radiance(normalize(p)) : nodes.radiance[n];
-        nodes.value[k] = mean_of_channels(nodes.radiance[k]);
+        if (k <= n) here = radiance(normalize(p));
+        nodes.radiance[0][k] = here.x;
+        nodes.radiance[1][k] = here.y;
+        nodes.radiance[2][k] = here.z;
+        nodes.value[k] = mean_of_channels(here);
         largest = max(largest, nodes.value[k]);
     }
     for (T& value : nodes.value) value = max(value, T(kLeastNodeShare) * largest);

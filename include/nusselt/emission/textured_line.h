@@ -10,6 +10,7 @@
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/emission/cell_lanes.h>
+#include <nusselt/emission/lane_index.h>
 #include <nusselt/emission/line_profile.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
@@ -23,41 +24,44 @@ struct LineTextureSample : LightSample<Real> {
 };
 
 /// The measure of cells for diffuse surfaces: projected solid angle per radius. Samples are above the horizon.
-template <class T>
+template <class Real>
 struct ProjectedLines {
-    static constexpr T kIntegral = 1 / kPi<T>; ///< of the normalised component, over the measure
+    static constexpr scalar_t<Real> kIntegral =
+        1 / kPi<scalar_t<Real>>; ///< of the normalised component, over the measure
 
-    template <class Real>
     NUSSELT_HD auto technique_for(const LineSegment<Real>& part) const noexcept {
         return LineProjectedSolidAngle<Real>(part);
     }
-    template <class Real>
-    NUSSELT_HD Real measure_of(const LineSegment<Real>& part) const noexcept {
-        return projected_solid_angle(part);
-    }
-    /// Positive where a point counts, and linear along lines.
-    NUSSELT_HD Vec2<T> heights(const Vec3<T>& p) const noexcept { return {p.z, p.z}; }
+    /// The line in the space where measures are projected solid angles. \param line with coordinates of order one
+    NUSSELT_HD LineSegment<Real> image_of(const LineSegment<Real>& line) const noexcept { return line; }
+    /// Measures of parts of a line over projected solid angles of their images. \param line with coordinates of order one
+    NUSSELT_HD Real ratio_for(const LineSegment<Real>& /*line*/) const noexcept { return Real(1); }
 };
 
 /// The measure of cells for glossy surfaces: the integral of a lobe above the horizon, per radius. Samples are not below it.
-template <class T>
+template <class Real>
 struct LobeLines {
-    static constexpr T kIntegral = 1; ///< \copydoc ProjectedLines::kIntegral
-    Ltc<T> ltc;
+    static constexpr scalar_t<Real> kIntegral = 1; ///< \copydoc ProjectedLines::kIntegral
+    Ltc<Real> ltc;
 
-    template <class Real>
     NUSSELT_HD auto technique_for(const LineSegment<Real>& part) const noexcept {
-        return LineClippedLtc<Real>(part, Ltc<Real>(ltc));
+        return LineClippedLtc<Real>(part, ltc);
     }
-    template <class Real>
-    NUSSELT_HD Real measure_of(const LineSegment<Real>& part) const noexcept {
-        return technique_for(part).measure();
+    /// \copydoc ProjectedLines::image_of
+    NUSSELT_HD LineSegment<Real> image_of(const LineSegment<Real>& line) const noexcept {
+        return to_cosine_space(line, ltc);
     }
-    /// \copydoc ProjectedLines::heights
-    NUSSELT_HD Vec2<T> heights(const Vec3<T>& p) const noexcept { return {p.z, ltc.to_cosine(p).z}; }
+    /// \copydoc ProjectedLines::ratio_for
+    NUSSELT_HD Real ratio_for(const LineSegment<Real>& line) const noexcept {
+        const Real thicker = Real(kPi<scalar_t<Real>>) * radius_ratio(cross(line.p0, line.s), ltc);
+        const Real ratio = Real(1) / select(thicker > Real(0), thicker, Real(1));
+        const auto seen =
+            (thicker > Real(0)) & is_finite(ratio) & (centered(to_safe_extent(line)).length > Real(0));
+        return select(seen, ratio, Real(0));
+    }
 };
 
-/// \tparam T       float, double or long double. One light and shading point at a time: cells are lanes.
+/// \tparam Real    float, double, long double, or a pack with a shading point and its view of the light per lane.
 /// \tparam n       as in LineProfile.
 /// \tparam Measure ProjectedLines or LobeLines.
 /// \tparam Along   LineProfile, or LineNodes for radiance that depends on the direction (emission/line_nodes.h).
@@ -67,197 +71,231 @@ struct LobeLines {
 /// Space: shading space; the shading point is the origin, the normal +z. For a lobe, wo is in the xz half-plane.
 /// Edge cases: nothing of the light above the horizon or in the lobe, black light, no length, or origin on the infinite line
 /// up to rounding: pdf = 0, measure 0. Black parts are never sampled.
-template <class T, int n = 64, class Measure = ProjectedLines<T>, class Along = LineProfile<T, n>>
+template <class Real, int n = 64, class Measure = ProjectedLines<Real>,
+          class Along = LineProfile<scalar_t<Real>, n>>
 class TexturedLine {
+    using T = scalar_t<Real>;
+    using Mask = mask_t<Real>;
+    using Index = detail::index_t<Real>;
+    using Lanes = detail::CellLanes<Real>;
+
 public:
     using Profile = Along;
 
     /// \param light   in shading space [m].
     /// \param profile has to live as long as this.
     /// \param measure with the lobe, if there is one.
-    NUSSELT_HD TexturedLine(const LineSegment<T>& light, const Profile& profile,
+    NUSSELT_HD TexturedLine(const LineSegment<Real>& light, const Profile& profile,
                             const Measure& measure = {}) noexcept
-        : profile_(&profile), measure_(measure), safe_(to_safe_extent(light)), lit_(lit_part()) {
-        using Lanes = detail::CellLanes<T>;
+        : profile_(&profile), measure_(measure), safe_(to_safe_extent(light)) {
+        // Parts of the line have the same lengths in its image, up to a factor.
+        const LineSegment<Real> image = measure_.image_of(safe_.line);
+        const Real scale = safe_.scale * measure_.ratio_for(safe_.line);
+        lit_ = part_above(safe_.line, part_above(image, {Real(0), Real(1)}));
         using L = typename Lanes::Type;
-        T total = T(0);
-        Vec3<T> expected{T(0), T(0), T(0)};
-        const Vec3<L> p0 = broadcast<L>(safe_.line.p0);
-        const Vec3<L> s = broadcast<L>(safe_.line.s);
+        const Vec3<L> p0 = broadcast<L>(image.p0);
+        const Vec3<L> s = broadcast<L>(image.s);
+        Real total = Real(0);
+        Vec3<L> expected{L(T(0)), L(T(0)), L(T(0))};
+        detail::store_lanes<Real>(sum_, total);
         for (int first = 0; first < profile.cells; first += Lanes::kCount) {
             // Cut the cells to the part that counts.
-            const L low = Lanes::load(profile.border + first);
-            const L high = Lanes::load(profile.border + first + 1);
+            const L low = Lanes::load_shared(profile.border + first);
+            const L high = Lanes::load_shared(profile.border + first + 1);
             const L begin = min(max(low, L(lit_.begin)), high);
             const L end = max(min(high, L(lit_.end)), begin);
-            const L length = L(safe_.line.length) * (end - begin);
-            const L measures =
-                measure_.measure_of(LineSegment<L>{fma(L(safe_.line.length) * begin, s, p0), s, length});
-            T share[Lanes::kCount], from[Lanes::kCount], to[Lanes::kCount];
-            const L inverse = L(T(1)) / select(high > low, high - low, L(T(1)));
-            Lanes::store(share, L(safe_.scale) * measures);
-            Lanes::store(from, (begin - low) * inverse);
-            Lanes::store(to, (end - low) * inverse);
+            const L share =
+                L(scale) * projected_solid_angle(LineSegment<L>{fma(L(image.length) * begin, s, p0), s,
+                                                                L(image.length) * (end - begin)});
+            // Interpolation at both ends, which takes half of what lies within.
+            const L width = select(high > low, high - low, L(T(1)));
+            const L last = L(T(0.5)) * ((begin - low) + (end - low)) / width;
+            const auto mean = [&](const T* values) {
+                return (L(T(1)) - last) * Lanes::load_shared(values + first) +
+                       last * Lanes::load_shared(values + first + 1);
+            };
+            expected.x += share * mean(profile.radiance[0]);
+            expected.y += share * mean(profile.radiance[1]);
+            expected.z += share * mean(profile.radiance[2]);
+            alignas(Real) T weights[Lanes::kCount * Lanes::kPoints];
+            Lanes::store(weights, max(share * mean(profile.value), L(T(0))));
             for (int i = 0; i < Lanes::kCount; ++i) {
-                const int k = first + i;
-                // Interpolation at both ends, which takes half of what lies within.
-                const T last = T(0.5) * (from[i] + to[i]);
-                const T mean = (T(1) - last) * profile.value[k] + last * profile.value[k + 1];
-                const T weight = share[i] * mean;
-                total += weight > T(0) ? weight : T(0);
-                sum_[k] = total;
-                expected += share[i] * ((T(1) - last) * profile.radiance[k] + last * profile.radiance[k + 1]);
+                total += detail::load_lanes<Real>(weights + Lanes::kPoints * i);
+                detail::store_lanes<Real>(sum_ + Lanes::kPoints * (first + i + 1), total);
             }
         }
-        total_ = total > T(0) && is_finite(total) ? total : T(0);
-        unshadowed_ = total_ > T(0) ? Measure::kIntegral * expected : Vec3<T>{T(0), T(0), T(0)};
+        const Mask lit = (total > Real(0)) & is_finite(total);
+        const Vec3<Real> dark{Real(0), Real(0), Real(0)};
+        total_ = select(lit, total, Real(0));
+        unshadowed_ =
+            select(lit,
+                   Real(Measure::kIntegral) *
+                       Vec3<Real>{Lanes::sum(expected.x), Lanes::sum(expected.y), Lanes::sum(expected.z)},
+                   dark);
     }
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-    NUSSELT_HD LineTextureSample<T> sample(const T& u) const noexcept {
-        if (!(total_ > T(0))) return none();
-        const T target = below_one(u) * total_;
-        int k = 0;
-        while (k < profile_->cells - 1 && sum_[k] <= target) ++k;
-        const Cell cell = make_cell(k);
-        const T rest = below_one((target - before(k)) / max(sum_[k] - before(k), kSmallest));
+    NUSSELT_HD LineTextureSample<Real> sample(const Real& u) const noexcept {
+        const Mask lit = total_ > Real(0);
+        const Vec3<Real> up{Real(0), Real(0), Real(1)};
+        if (!any(lit)) return {{up, Real(0), up}, Real(0)};
+        const Real target = below_one(u) * total_;
+        const Cell cell = make_cell(cell_for(target));
+        const Real rest = below_one((target - cell.before) / max(cell.after - cell.before, Real(kSmallest)));
         // Invert the distribution of a density that is linear in x.
-        const T both = cell.first + cell.last;
-        const T root = sqrt(max(cell.first * cell.first + rest * (cell.last - cell.first) * both, T(0)));
-        const T x = below_one(rest * both / max(cell.first + root, kSmallest));
-        const auto technique = measure_.technique_for(cell.part);
-        const LightSample<T> s = technique.sample(x);
-        const T at = min(max(position_of(s.wi), cell.begin), cell.end);
-        return {{s.wi, density(cell, x, s.pdf), safe_.inverse_scale * s.p}, at};
+        const Real both = cell.first + cell.last;
+        const Real root =
+            sqrt(max(cell.first * cell.first + rest * (cell.last - cell.first) * both, Real(0)));
+        const Real x = below_one(rest * both / max(cell.first + root, Real(kSmallest)));
+        const LightSample<Real> s = measure_.technique_for(cell.part).sample(x);
+        const Real at = min(max(position_of(s.wi), cell.begin), cell.end);
+        return {{select(lit, s.wi, up), select(lit, density(cell, x, s.pdf), Real(0)),
+                 select(lit, safe_.inverse_scale * s.p, up)},
+                select(lit, at, Real(0))};
     }
 
     /// \param wi a unit direction towards the light.
-    NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
-        return total_ > T(0) ? pdf_along(wi, position_of(wi)) : T(0);
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
+        return any(total_ > Real(0)) ? pdf_along(wi, position_of(wi)) : Real(0);
     }
 
     /// The density of the direction to a point of the light [m/sr]. \param at share of the length before it, in [0, 1]
-    NUSSELT_HD T pdf_at(const T& at) const noexcept {
-        return total_ > T(0) ? pdf_along(normalize(point_at(at)), at) : T(0);
+    NUSSELT_HD Real pdf_at(const Real& at) const noexcept {
+        return any(total_ > Real(0)) ? pdf_along(normalize(point_at(at)), at) : Real(0);
     }
 
     /// The random number for which sample() returns wi, a unit direction on the light.
-    NUSSELT_HD T invert(const Vec3<T>& wi) const noexcept {
-        if (!(total_ > T(0))) return T(0);
-        const int k = cell_at(position_of(wi));
-        const Cell cell = make_cell(k);
-        const T x = measure_.technique_for(cell.part).invert(wi);
-        const T both = cell.first + cell.last;
-        const T below = x * (T(2) * cell.first + x * (cell.last - cell.first));
-        const T rest = both > T(0) ? min(below / both, T(1)) : T(0);
-        return below_one((before(k) + rest * (sum_[k] - before(k))) / total_);
+    NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
+        const Mask lit = total_ > Real(0);
+        if (!any(lit)) return Real(0);
+        const Cell cell = make_cell(cell_at(position_of(wi)));
+        const Real x = measure_.technique_for(cell.part).invert(wi);
+        const Real both = cell.first + cell.last;
+        const Real below = x * (Real(2) * cell.first + x * (cell.last - cell.first));
+        const auto bright = both > Real(0);
+        const Real rest = select(bright, min(below / select(bright, both, Real(1)), Real(1)), Real(0));
+        const Real sum = cell.before + rest * (cell.after - cell.before);
+        return select(lit, below_one(sum / select(lit, total_, Real(1))), Real(0));
     }
 
     /// The sum over cells of mean radiance, averaged over channels, times projected solid angle or the integral of the lobe,
     /// per radius [W/m^3, W/(sr m^3)].
-    NUSSELT_HD T measure() const noexcept { return total_; }
+    NUSSELT_HD Real measure() const noexcept { return total_; }
 
     /// The light that is reflected without shadows per radius and albedo of the component, per channel [W/(sr m^3)]: the
     /// coefficient of heuristics for multiple importance sampling (estimate/mis.h). Exact where the light is constant.
-    NUSSELT_HD Vec3<T> unshadowed() const noexcept { return unshadowed_; }
+    NUSSELT_HD Vec3<Real> unshadowed() const noexcept { return unshadowed_; }
 
 private:
     static constexpr T kSmallest = std::numeric_limits<T>::min();
 
     struct Part {
-        T begin, end; ///< shares of the length
+        Real begin, end; ///< shares of the length
     };
     struct Cell {
-        LineSegment<T> part; ///< that counts
-        T begin, end;        ///< shares of the length
-        T first, last;       ///< radiance there
-        T probability;
+        LineSegment<Real> part; ///< that counts
+        Real begin, end;        ///< shares of the length
+        Real first, last;       ///< radiance there
+        Real before, after;     ///< sums of weights at the ends
     };
 
-    NUSSELT_HD static LineTextureSample<T> none() noexcept {
-        const Vec3<T> up{T(0), T(0), T(1)};
-        return {{up, T(0), up}, T(0)};
-    }
-
-    NUSSELT_HD Vec3<T> point_at(const T& at) const noexcept {
+    NUSSELT_HD Vec3<Real> point_at(const Real& at) const noexcept {
         return fma(at * safe_.line.length, safe_.line.s, safe_.line.p0);
     }
 
-    /// The part of the line where all heights are positive.
-    NUSSELT_HD Part lit_part() const noexcept {
-        const Vec2<T> start = measure_.heights(safe_.line.p0);
-        const Vec2<T> end = measure_.heights(end_of(safe_.line));
-        return part_above(start.x, end.x, part_above(start.y, end.y, {T(0), T(1)}));
-    }
-    NUSSELT_HD static Part part_above(const T& start, const T& end, const Part& part) noexcept {
-        if (start <= T(0) && end <= T(0)) return {T(0), T(0)};
-        if (start >= T(0) && end >= T(0)) return part;
-        const T crossing = start / (start - end);
-        return start < T(0) ? Part{max(part.begin, crossing), part.end}
-                            : Part{part.begin, min(part.end, crossing)};
+    /// What is above the horizon of a part of a line.
+    NUSSELT_HD static Part part_above(const LineSegment<Real>& line, const Part& part) noexcept {
+        const Real start = line.p0.z;
+        const Real end = end_of(line).z;
+        const auto none = (start <= Real(0)) & (end <= Real(0));
+        const auto rises = (start < Real(0)) & (end > Real(0));
+        const auto falls = (start > Real(0)) & (end < Real(0));
+        const Real crossing = start / select(rises | falls, start - end, Real(1));
+        return {select(none, Real(0), select(rises, max(part.begin, crossing), part.begin)),
+                select(none, Real(0), select(falls, min(part.end, crossing), part.end))};
     }
 
     /// Where a direction meets the line, as a share of its length.
-    NUSSELT_HD T position_of(const Vec3<T>& wi) const noexcept {
-        const CenteredLine<T> line = centered(safe_);
-        const T ahead = max(dot(wi, line.closest), kSmallest);
-        const T l = min(max(line.squared * (dot(wi, line.inward) / ahead), line.near_l), line.far_l);
-        const T distance = line.sign > T(0) ? l - line.near_l : line.far_l - l;
-        return min(max(distance / safe_.line.length, T(0)), T(1));
+    NUSSELT_HD Real position_of(const Vec3<Real>& wi) const noexcept {
+        const CenteredLine<Real> line = centered(safe_);
+        const Real ahead = max(dot(wi, line.closest), Real(kSmallest));
+        const Real l = min(max(line.squared * (dot(wi, line.inward) / ahead), line.near_l), line.far_l);
+        const Real distance = select(line.sign > Real(0), l - line.near_l, line.far_l - l);
+        return min(max(distance / safe_.line.length, Real(0)), Real(1));
     }
 
-    NUSSELT_HD T before(int k) const noexcept { return k > 0 ? sum_[k - 1] : T(0); }
+    /// The cell whose weights reach beyond a sum of weights.
+    NUSSELT_HD Index cell_for(const Real& target) const noexcept {
+        const int last = profile_->cells - 1;
+        const auto is_before = [&](int k) {
+            return detail::load_lanes<Real>(sum_ + Lanes::kPoints * (k + 1)) <= target;
+        };
+        Index cell = 0;
+        if constexpr (Lanes::kPoints == 1) {
+            while (cell < last && is_before(cell)) ++cell;
+        } else {
+            for (int k = 0; k < last; ++k) cell += select(is_before(k), Real(1), Real(0));
+        }
+        return cell;
+    }
 
     /// The cell at a point, or the closest one that is sampled where rounding decides.
-    NUSSELT_HD int cell_at(const T& at) const noexcept {
+    NUSSELT_HD Index cell_at(const Real& at) const noexcept {
         return profile_->cell_at(min(max(at, lit_.begin), lit_.end));
     }
 
-    NUSSELT_HD Cell make_cell(int k) const noexcept {
-        const T low = profile_->border[k];
-        const T high = profile_->border[k + 1];
-        const T begin = min(max(low, lit_.begin), high);
-        const T end = max(min(high, lit_.end), begin);
-        const auto value = [&](const T& at) {
-            const T share = (at - low) / (high - low);
-            return (T(1) - share) * profile_->value[k] + share * profile_->value[k + 1];
+    NUSSELT_HD Cell make_cell(const Index& k) const noexcept {
+        const auto place = detail::places<Real>(k, Index(0), 0);
+        const Real low = place.load(profile_->border);
+        const Real high = place.load(profile_->border + 1);
+        const Real value_low = place.load(profile_->value);
+        const Real value_high = place.load(profile_->value + 1);
+        const Real begin = min(max(low, lit_.begin), high);
+        const Real end = max(min(high, lit_.end), begin);
+        const auto value = [&](const Real& at) {
+            const Real share = (at - low) / (high - low);
+            return (Real(1) - share) * value_low + share * value_high;
         };
         return {{point_at(begin), safe_.line.s, safe_.line.length * (end - begin)},
                 begin,
                 end,
                 value(begin),
                 value(end),
-                (sum_[k] - before(k)) / total_};
+                place.load_own(sum_),
+                place.load_own(sum_ + Lanes::kPoints)};
     }
 
     /// \param x     random number of the technique for the cell
     /// \param whole density of that technique, in units of the scaled line
-    NUSSELT_HD T density(const Cell& cell, const T& x, const T& whole) const noexcept {
-        const T both = cell.first + cell.last;
-        if (!(both > T(0))) return T(0);
-        const T here = (T(1) - x) * cell.first + x * cell.last;
-        const T density = cell.probability * (T(2) * here / both) * whole * safe_.inverse_scale;
-        return is_finite(density) ? density : T(0);
+    NUSSELT_HD Real density(const Cell& cell, const Real& x, const Real& whole) const noexcept {
+        const Real both = cell.first + cell.last;
+        const auto lit = (total_ > Real(0)) & (both > Real(0));
+        const Real here = (Real(1) - x) * cell.first + x * cell.last;
+        const Real probability = (cell.after - cell.before) / select(lit, total_, Real(1));
+        const Real density =
+            probability * (Real(2) * here / select(lit, both, Real(1))) * whole * safe_.inverse_scale;
+        return select(lit & is_finite(density), density, Real(0));
     }
 
-    NUSSELT_HD T pdf_along(const Vec3<T>& wi, const T& at) const noexcept {
+    NUSSELT_HD Real pdf_along(const Vec3<Real>& wi, const Real& at) const noexcept {
         const Cell cell = make_cell(cell_at(at));
-        if (!(cell.probability > T(0)) || wi.z < T(0)) return T(0);
+        const auto counts = (cell.after > cell.before) & !(wi.z < Real(0));
+        if (!any(counts)) return Real(0);
         const auto technique = measure_.technique_for(cell.part);
-        return density(cell, technique.invert(wi), technique.pdf(wi));
+        return select(counts, density(cell, technique.invert(wi), technique.pdf(wi)), Real(0));
     }
 
     const Profile* profile_;
     Measure measure_;
-    SafeLine<T> safe_;
+    SafeLine<Real> safe_;
     Part lit_;
-    T sum_[Profile::kSlots]; ///< of weights up to each cell
-    T total_;
-    Vec3<T> unshadowed_;
+    alignas(Real) T sum_[Lanes::kPoints * (Profile::kSlots + 1)]; ///< of the weights before each cell
+    Real total_;
+    Vec3<Real> unshadowed_;
 };
 
 /// For glossy surfaces.
-template <class T, int n = 64>
-using TexturedLineLtc = TexturedLine<T, n, LobeLines<T>>;
+template <class Real, int n = 64>
+using TexturedLineLtc = TexturedLine<Real, n, LobeLines<Real>>;
 
 NUSSELT_NAMESPACE_END

@@ -8,6 +8,8 @@
 
 #include <nusselt/emission/line_profile.h>
 #include <nusselt/geometry/cylinder.h>
+#include <nusselt/sampling/cylinder_ltc.h>
+#include <nusselt/sampling/cylinder_projected_solid_angle.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -15,7 +17,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// \tparam Real      float, double, long double or a pack of float or double: one light and shading point per lane.
 /// \tparam Technique CylinderProjectedSolidAngle<Real> or CylinderLtc<Real>: its measure, space and edge cases are those of
 ///                   this technique, too.
-template <class Real, class Technique>
+template <class Real, class Technique = CylinderProjectedSolidAngle<Real>>
 class TexturedTube {
     using T = scalar_t<Real>;
 
@@ -116,5 +118,9 @@ private:
     Technique technique_;
     PiecewiseLinear<Real, kNodes> along_; ///< density of the second random number, not normalised
 };
+
+/// For glossy surfaces.
+template <class Real>
+using TexturedTubeLtc = TexturedTube<Real, CylinderLtc<Real>>;
 
 NUSSELT_NAMESPACE_END

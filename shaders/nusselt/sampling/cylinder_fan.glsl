@@ -283,13 +283,15 @@ float cylinder_fan_share_of(CylinderFan self, vec2 azimuth) {
     return nusselt_min(nusselt_max(from_low / safe_extent, 0.0), 1.0);
 }
 
-/// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it, rising
-/// along the axis. Without meaning if the integral is 0.
-vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
-    float angle = nusselt_fma(piecewise_linear_invert(self.warp, u.x), self.range.extent, self.range.low);
-    vec2 azimuth = cylinder_image_azimuth_at(self.image, angle);
-    CylinderHalfPlane h = cylinder_half_plane(self.image, self.importance, azimuth);
-    LinePoint point = importance_point(self.importance, h.extent, u.y);
+/// The half-plane for a random number in [0, 1).
+CylinderHalfPlane cylinder_fan_half_plane(CylinderFan self, float u) {
+    float angle = nusselt_fma(piecewise_linear_invert(self.warp, u), self.range.extent, self.range.low);
+    return cylinder_half_plane(self.image, self.importance, cylinder_image_azimuth_at(self.image, angle));
+}
+
+/// The point of the cylinder in a half-plane for a random number in [0, 1), which rises along the axis.
+vec3 cylinder_fan_point_in(CylinderFan self, CylinderHalfPlane h, float u) {
+    LinePoint point = importance_point(self.importance, h.extent, u);
     float sine = h.extent.line.sign_of_s * line_map_sine_at(make_line_map(h.extent), point.share);
     float mapped = sine / nusselt_max(point.inverse_distance, 1.0 / kNusseltSteepest);
     // In a half-plane without importance the map may not exist. Any point will do, its density is 0.
@@ -297,6 +299,12 @@ vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
     float tangent = (h.widening * steepness - h.shear) / self.image.stretch;
     vec2 p = cylinder_view_first_point(self.image.view, h.slice, tangent);
     return p.x * self.image.view.s + p.y * h.slice.t;
+}
+
+/// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it, rising
+/// along the axis. Without meaning if the integral is 0.
+vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
+    return cylinder_fan_point_in(self, cylinder_fan_half_plane(self, u.x), u.y);
 }
 
 /// Density with respect to solid angle in the space of the importance, over the importance [1/sr].

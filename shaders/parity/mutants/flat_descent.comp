@@ -17,4 +17,4 @@ TexelChoice choose_flat(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure textured_polygon_measure
-#include "parity/textured_polygon.glsl"
+#include "parity/emission/textured_polygon.glsl"

@@ -14,4 +14,4 @@ float flat_jacobian(float p, float q) { return 1.0; }
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure windowed_polygon_measure
-#include "parity/windowed_polygon.glsl"
+#include "parity/emission/windowed_polygon.glsl"

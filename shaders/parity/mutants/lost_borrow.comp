@@ -14,4 +14,4 @@ uvec2 difference_of_halves(uvec2 a, uvec2 b) { return a - b; }
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure windowed_polygon_measure
-#include "parity/windowed_polygon.glsl"
+#include "parity/emission/windowed_polygon.glsl"

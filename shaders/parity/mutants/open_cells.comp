@@ -14,4 +14,4 @@ int no_pieces(uint light) { return 0; }
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure textured_polygon_measure
-#include "parity/textured_polygon.glsl"
+#include "parity/emission/textured_polygon.glsl"

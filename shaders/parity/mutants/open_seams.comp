@@ -14,4 +14,4 @@ ivec2 clamp_octahedral(ivec2 at, int size) { return clamp(at, ivec2(0), ivec2(si
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure environment_cosine_measure
-#include "parity/environment.glsl"
+#include "parity/emission/environment.glsl"

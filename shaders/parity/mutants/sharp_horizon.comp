@@ -14,4 +14,4 @@ vec4 sharp_clamp(vec4 mean, vec4 variance) { return max(mean, 0.0 * variance); }
 #define technique_pdf(technique, wi) 0.0
 #define technique_invert(technique, wi) vec2(0.0)
 #define technique_measure environment_cosine_measure
-#include "parity/environment.glsl"
+#include "parity/emission/environment.glsl"

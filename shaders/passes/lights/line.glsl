@@ -5,9 +5,13 @@
 #include "nusselt/geometry/cylinder_caps.glsl"
 #include "nusselt/geometry/strip.glsl"
 #include "passes/lights/light_role.glsl"
+#include "passes/lights/line_profile.glsl"
 
-layout(constant_id = kLinesConstant) const bool kHasLines = true; ///< linear lights and strips, without extent
+// Linear lights and strips have no extent. Those whose radiance varies count apart.
+layout(constant_id = kLinesConstant) const bool kHasLines = true;
 layout(constant_id = kTubesConstant) const bool kHasTubes = true;
+const bool kHasAnyLines = kHasLines || kHasTexturedLines;
+const bool kHasAnyTubes = kHasTubes || kHasTexturedTubes;
 
 layout(set = 0, binding = kLineLightsBinding, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
 
@@ -15,19 +19,22 @@ struct LocalLine {
     LineSegment shape; ///< in shading space; for tubes the axis
     uint model;
     float radius; ///< for tubes
+    float width;  ///< the emission over the radiance
+    LineRadiance radiance;
     LightRole role;
 };
 
 struct LocalTube {
     Cylinder shape; ///< in shading space
     bool is_open;   ///< with dark caps
+    LineRadiance radiance;
     LightRole role;
 };
 
 bool is_tube(LocalLine light) { return light.model == kSolidTube || light.model == kOpenTube; }
 
 LocalTube tube_of(LocalLine light) {
-    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.role);
+    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.role);
 }
 
 /// \param index among the lines and tubes
@@ -38,25 +45,44 @@ LocalLine local_line(Surface surface, uint index) {
     light.shape = to_shading_space(world, surface.position, surface.shading);
     light.model = record.model;
     light.radius = record.radius;
+    light.radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
     vec3 s = light.shape.s;
     float highest = nusselt_max(light.shape.p0.z, light.shape.p0.z + light.shape.len * s.z);
-    vec3 emission = to_vec(record.radiance);
+    light.width = 1.0;
     if (is_tube(light))
         highest += record.radius * sqrt(nusselt_max(1.0 - s.z * s.z, 0.0));
     else
-        emission = record.radius * emission;
+        light.width = record.radius;
     if (light.model == kStrip)
-        emission *= strip_facing(light.shape, frame_to_local(surface.shading, to_vec(record.normal)));
-    light.role = LightRole(!(highest <= 0.0), emission, light_number(kLineKind, index));
+        light.width *= strip_facing(light.shape, frame_to_local(surface.shading, to_vec(record.normal)));
+    light.role = LightRole(!(highest <= 0.0), light.width * to_vec(record.radiance), light_number(kLineKind, index));
     return light;
+}
+
+/// Where a ray that meets a light does so, as a share of the length. Cameras see a cylinder with flat sides: rays that miss
+/// the round one have the closest point of its axis.
+float place_along(LineLightRecord record, Cylinder tube, vec3 wi) {
+    LineSegment axis = tube.axis;
+    if (record.model == kStrip) {
+        vec3 normal = to_vec(record.normal);
+        return place_along(axis, dot(normal, axis.p0) / dot(normal, wi) * wi);
+    }
+    LightHit hit = intersect(tube, wi);
+    if (hit.hits) return place_along(axis, hit.distance * wi);
+    vec3 across = nusselt_normalize(nusselt_cross(wi, nusselt_cross(axis.s, wi)));
+    return place_along(axis, nusselt_fma(-dot(axis.p0, across) / dot(axis.s, across), axis.s, axis.p0));
 }
 
 /// The radiance along a ray that meets the light.
 vec3 line_emission(uint index, Ray ray) {
     LineLightRecord record = line_lights[index];
     LineSegment axis = LineSegment(to_vec(record.begin) - ray.origin, to_vec(record.direction), record.len);
-    bool is_dark = record.model == kOpenTube && meets_cap(Cylinder(axis, record.radius), ray.direction);
-    return is_dark ? vec3(0.0) : to_vec(record.radiance);
+    Cylinder tube = Cylinder(axis, record.radius);
+    vec3 wi = nusselt_normalize(ray.direction);
+    if (record.model == kOpenTube && meets_cap(tube, wi)) return vec3(0.0);
+    LineRadiance radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
+    if (!varies(radiance)) return to_vec(record.radiance);
+    return line_profile_lookup(radiance.profile, place_along(record, tube, wi));
 }
 
 #endif

@@ -5,21 +5,39 @@
 #include "nusselt/ltc/line_shading.glsl"
 #include "passes/lights/line.glsl"
 
+/// The integrals of the diffuse and the specular lobe over the axis of a light, per radius.
+vec2 axis_integrals(LocalLine light, Ltc lobe) {
+    return vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, lobe));
+}
+
+/// The same over the caps of a tube.
+vec2 caps_integrals(LocalLine light, Ltc lobe) {
+    if (light.model != kSolidTube) return vec2(0.0);
+    return vec2(diffuse_caps_integral(light.shape, light.radius),
+                clipped_caps_integral(light.shape, light.radius, lobe));
+}
+
+/// Adds a light of uniform radiance.
+void add_uniform_line(inout Reflected reflected, LocalLine light) {
+    vec2 integrals = axis_integrals(light, reflected.glossy.lobe);
+    if (kHasTubes && is_tube(light)) {
+        vec2 caps = caps_integrals(light, reflected.glossy.lobe);
+        integrals = vec2(tube_integral(integrals.x, light.radius, caps.x),
+                         tube_integral(integrals.y, light.radius, caps.y));
+    }
+    add_light(reflected, light.role, integrals);
+}
+
+#if EMISSION_CELLS
+#include "passes/lights/line_cell_integrals.glsl"
+#else
+void add_line(inout Reflected reflected, LocalLine light) { add_uniform_line(reflected, light); }
+#endif
+
 void add_lines(inout Reflected reflected) {
-    for (uint i = first_index(kLineKind); (kHasLines || kHasTubes) && i < end_index(kLineKind); ++i) {
+    for (uint i = first_index(kLineKind); (kHasAnyLines || kHasAnyTubes) && i < end_index(kLineKind); ++i) {
         LocalLine light = local_line(reflected.surface, i);
-        if (!light.role.is_lit) continue;
-        vec2 integrals =
-            vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, reflected.glossy.lobe));
-        if (kHasTubes && is_tube(light)) {
-            vec2 caps = vec2(0.0);
-            if (light.model == kSolidTube)
-                caps = vec2(diffuse_caps_integral(light.shape, light.radius),
-                            clipped_caps_integral(light.shape, light.radius, reflected.glossy.lobe));
-            integrals = vec2(tube_integral(integrals.x, light.radius, caps.x),
-                             tube_integral(integrals.y, light.radius, caps.y));
-        }
-        add_light(reflected, light.role, integrals);
+        if (light.role.is_lit) add_line(reflected, light);
     }
 }
 

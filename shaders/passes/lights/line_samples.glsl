@@ -99,9 +99,15 @@ vec2 techniques_integrals(TubeTechniques self) {
                 cylinder_ltc_measure(self.ltc));
 }
 
-// Samples on a part of the light that does not shine count like those in shadow.
-void modulate(LocalLine light, inout DirectLightSample s) {}
+/// Multiplies a sample by the radiance at its point over the mean.
+void modulate(LocalLine light, inout DirectLightSample s) {
+    if (kHasTexturedLines && varies(light.radiance))
+        s.shadowed = relative_radiance(light.radiance, light.shape, s.p) * s.shadowed;
+}
+/// Likewise. Samples on a part of the light that does not shine count like those in shadow.
 void modulate(LocalTube light, inout DirectLightSample s) {
+    if (kHasTexturedTubes && varies(light.radiance))
+        s.shadowed = relative_radiance(light.radiance, light.shape.axis, s.p) * s.shadowed;
     if (light.is_open && meets_cap(light.shape, s.wi)) s.shadowed = vec3(0.0);
 }
 
@@ -117,14 +123,25 @@ void modulate(LocalTube light, inout DirectLightSample s) {
 #undef LOCAL_LIGHT
 #undef TECHNIQUES
 
+/// Adds samples by the measure of the technique.
+void add_by_measure(inout Estimate estimate, LocalLine light, bool has_lines, bool has_tubes) {
+    if (has_tubes && is_tube(light))
+        add_light(estimate, tube_of(light));
+    else if (has_lines)
+        add_light(estimate, light);
+}
+
+#if EMISSION_CELLS
+#include "passes/lights/line_cell_samples.glsl"
+#else
+void add_line(inout Estimate estimate, LocalLine light) {
+    add_by_measure(estimate, light, kHasAnyLines, kHasAnyTubes);
+}
+#endif
+
 void add_lines(inout Estimate estimate) {
-    for (uint i = first_index(kLineKind); (kHasLines || kHasTubes) && i < end_index(kLineKind); ++i) {
-        LocalLine light = local_line(estimate.surface, i);
-        if (kHasTubes && is_tube(light))
-            add_light(estimate, tube_of(light));
-        else if (kHasLines)
-            add_light(estimate, light);
-    }
+    for (uint i = first_index(kLineKind); (kHasAnyLines || kHasAnyTubes) && i < end_index(kLineKind); ++i)
+        add_line(estimate, local_line(estimate.surface, i));
 }
 
 #endif

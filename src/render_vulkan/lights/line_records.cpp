@@ -1,13 +1,16 @@
 // Linear lights and tubes, for shaders/passes/lights/line.glsl.
 
+#include "render_vulkan/lights/emission_words.h"
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
+#include "scene/model/vector_math.h"
 
+#include <nusselt/emission/line_profile_words.h>
 #include <nusselt/geometry/line_segment.h>
 
-#include <algorithm>
-#include <stdexcept>
+#include <cstddef>
+#include <vector>
 
 namespace nusselt::render_vulkan {
 
@@ -23,14 +26,33 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
               is_number_of(TubeModel::open, interface::kOpenTube) &&
               is_number_of(TubeModel::strip, interface::kStrip));
 
+/// The constant of the shape that a light is.
+int constant_of(const scene::LineLight& light) {
+    const bool is_tube = light.model == TubeModel::solid || light.model == TubeModel::open;
+    if (light.texture >= 0)
+        return is_tube ? interface::kTexturedTubesConstant : interface::kTexturedLinesConstant;
+    return is_tube ? interface::kTubesConstant : interface::kLinesConstant;
+}
+
+/// Appends the radiance along a light. \returns the number of the first word
+std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& light,
+                          std::vector<std::uint32_t>& words) {
+    static_assert(scene::kMaxLineTexels == ShaderLineProfile::kMostTexels);
+    const auto& emission = scene.emission_textures.at(static_cast<std::size_t>(light.texture));
+    const std::vector<Vec3<float>> texels =
+        scene::scaled(emission.texture->texels, scene::per_channel_ratio(light.radiance, emission.mean));
+    const ShaderLineProfile profile =
+        make_line_profile<scene::kMaxLineTexels>(texels.data(), static_cast<int>(texels.size()));
+    const std::uint32_t first = grow_words(words, static_cast<std::size_t>(LineProfileWords::count(profile)));
+    LineProfileWords::write(profile, words.data() + first);
+    return first;
+}
+
 } // namespace
 
-bool write_lines(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
+bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
     if (lines == nullptr) return false;
-    if (std::any_of(lines->lights.begin(), lines->lights.end(),
-                    [](const auto& light) { return light.texture >= 0; }))
-        throw std::runtime_error("lights that emit an image are not supported on GPUs; use --backend cpu");
     if (std::any_of(lines->lights.begin(), lines->lights.end(),
                     [](const auto& light) { return light.profile >= 0; }))
         throw std::runtime_error(
@@ -44,10 +66,14 @@ bool write_lines(const scene::Scene& /*scene*/, const scene::LightList& list, Li
         record.len = line.length;
         record.radius = light.radius;
         record.model = static_cast<std::uint32_t>(light.model);
-        const bool is_cylinder = light.model == TubeModel::solid || light.model == TubeModel::open;
-        records.has_shape_of(is_cylinder ? interface::kTubesConstant : interface::kLinesConstant) = true;
         copy(light.normal, record.normal);
         copy(light.radiance, record.radiance);
+        copy(scene::per_channel_ratio({1, 1, 1}, light.radiance), record.inverse_mean);
+        records.has_shape_of(constant_of(light)) = true;
+        record.first_profile_word =
+            light.texture < 0
+                ? interface::kNoWords
+                : add_profile(scene, light, records.array_at(interface::kEmissionWordsBinding).words);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);
     return true;

@@ -81,7 +81,7 @@ TEST(LineNodes, HaveEqualAnglesAndFollowTheRadiance) {
         for (int k = 0; k < 32; ++k) {
             EXPECT_LT(nodes.border[k], nodes.border[k + 1]);
             EXPECT_NEAR(std::acos(std::min(dot(direction(k), direction(k + 1)), 1.0)), step, 1e-6);
-            EXPECT_NEAR(nodes.radiance[k].x, beam(direction(k)).x, 1e-12);
+            EXPECT_NEAR(nodes.radiance[0][k], beam(direction(k)).x, 1e-12);
             EXPECT_EQ(nodes.cell_at(nodes.border[k]), k);
             EXPECT_EQ(nodes.cell_at(0.5 * (nodes.border[k] + nodes.border[k + 1])), k);
         }
@@ -142,7 +142,7 @@ TEST(LineNodes, MissNoBeam) {
         return Vec3<double>{value, value, value};
     };
     const auto nodes = make_line_nodes(line, 1.0, beam);
-    for (int k = 0; k <= 32; ++k) ASSERT_EQ(nodes.radiance[k].x, 0);
+    for (int k = 0; k <= 32; ++k) ASSERT_EQ(nodes.radiance[0][k], 0);
     const Technique<double> technique(line, nodes);
     EXPECT_GT(technique.pdf(axis), 0);
     // Without a typical radiance, nothing tells of it.

@@ -11,7 +11,7 @@
 
 #include <nusselt/emission/textured_line.h>
 
-#include "ltc/lobes.h"
+#include "emission/textured_lines.h"
 
 namespace nusselt_test {
 namespace {
@@ -26,17 +26,6 @@ using nusselt::ProjectedLines;
 using nusselt::TexturedLine;
 using nusselt::Vec3;
 
-/// Grey texels as functions of their place in [0, 1].
-template <class T, class Value>
-LineProfile<T> profile_of(int count, const Value& value) {
-    std::vector<Vec3<T>> texels;
-    for (int k = 0; k < count; ++k) {
-        const auto x = static_cast<T>(value((k + 0.5) / count));
-        texels.push_back({x, x, x});
-    }
-    return make_line_profile(texels.data(), count);
-}
-
 struct NamedProfile {
     const char* name;
     LineProfile<double> profile;
@@ -49,7 +38,7 @@ const std::vector<NamedProfile>& profiles() {
         return std::vector<NamedProfile>{
             {"constant", profile_of<double>(1, [](double) { return 0.7; })},
             {"gradient", profile_of<double>(16, [](double x) { return 0.25 + x; })},
-            {"dots", profile_of<double>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; })},
+            {"dots", profile_of<double>(64, dots)},
             {"noise", profile_of<double>(64, [&](double) { return std::pow(uniform(random), 4); })},
         };
     }();
@@ -62,13 +51,6 @@ std::vector<LineSegment<double>> lines() {
     return {line({-0.5, 0.3, 1}, {0.5, 0.4, 1.2}), line({-3, 0.2, 0.1}, {4, 0.1, 0.3}),
             line({1, -0.4, -0.7}, {0.8, 0.9, 1.1}), line({2, 1, 1.5}, {-1, 0.3, -0.4}),
             line({30, -70, 200}, {31, -69, 200.3})};
-}
-
-template <class T>
-nusselt::Ltc<T> glossy_lobe() {
-    const auto c = tilted_lobe(0.5L, 0.4L, 1.1L, 0.1L);
-    return nusselt::Ltc<T>({static_cast<T>(c.m00), static_cast<T>(c.m02), static_cast<T>(c.m11),
-                            static_cast<T>(c.m20), static_cast<T>(c.m22), T(1)});
 }
 
 template <template <class> class Measure_>
@@ -252,7 +234,7 @@ TYPED_TEST(TexturedLineTest, CoefficientsArePerChannel) {
 
 /// Between bright dots.
 TYPED_TEST(TexturedLineTest, BlackPartsAreNeverSampled) {
-    const auto profile = profile_of<float>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; });
+    const auto profile = profile_of<float>(64, dots);
     for (const auto& line : lines()) {
         const LineSegment<float> light{nusselt::broadcast<float>(line.p0), nusselt::broadcast<float>(line.s),
                                        static_cast<float>(line.length)};
@@ -273,7 +255,8 @@ TYPED_TEST(TexturedLineTest, FloatAgreesWithDouble) {
             profile.border[k] = static_cast<float>(named.profile.border[k]);
             profile.value[k] = static_cast<float>(named.profile.value[k]);
             profile.before[k] = static_cast<float>(named.profile.before[k]);
-            profile.radiance[k] = nusselt::broadcast<float>(named.profile.radiance[k]);
+            for (int channel = 0; channel < 3; ++channel)
+                profile.radiance[channel][k] = static_cast<float>(named.profile.radiance[channel][k]);
         }
         const LineSegment<float> light{nusselt::broadcast<float>(line.p0), nusselt::broadcast<float>(line.s),
                                        static_cast<float>(line.length)};
@@ -320,23 +303,17 @@ TYPED_TEST(TexturedLineTest, NothingComesFromWhatCannotBeSeen) {
 /// Points and directions of all sizes, many of them through the shading point or in its plane.
 template <class Variant, class T>
 void expect_contract_on_hostile_lights() {
-    std::mt19937 random(6);
-    const std::vector<double> coordinates = {0, 0, 1, -1, 0.5, 1e-6, -1e-6, 1e-3, 1e6, -1e6, 1e-9, 0.3333333};
-    const auto pick = [&] {
-        return static_cast<T>(
-            coordinates[std::uniform_int_distribution<std::size_t>(0, coordinates.size() - 1)(random)]);
-    };
+    HostileCoordinates<T> hostile;
     const LineProfile<T> all[] = {
         profile_of<T>(1, [](double) { return 1; }), profile_of<T>(64, [](double x) { return x > 0.9; }),
-        profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); }),
-        profile_of<T>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; })};
+        profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); }), profile_of<T>(64, dots)};
     constexpr T kLargest = std::numeric_limits<T>::max();
     int lit = 0, agree = 0;
     for (int k = 0; k < 2000; ++k) {
         constexpr T kScales[] = {T(1), T(1), T(1e-25), T(1e25)};
         const T scale = kScales[k % 4];
-        const Vec3<T> a{scale * pick(), scale * pick(), scale * pick()};
-        const Vec3<T> b{scale * pick(), scale * pick(), scale * pick()};
+        const Vec3<T> a = hostile.point(scale);
+        const Vec3<T> b = hostile.point(scale);
         const auto technique = Variant::technique(make_line(a, b), all[static_cast<std::size_t>(k / 4) % 4]);
         ASSERT_TRUE(technique.measure() >= 0 && technique.measure() <= kLargest);
         ASSERT_TRUE(technique.unshadowed().y >= 0 && technique.unshadowed().y <= kLargest);

@@ -10,10 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <nusselt/emission/textured_tube.h>
-#include <nusselt/sampling/cylinder_ltc.h>
-#include <nusselt/sampling/cylinder_projected_solid_angle.h>
 
-#include "ltc/lobes.h"
+#include "emission/textured_lines.h"
 
 namespace nusselt_test {
 namespace {
@@ -28,16 +26,6 @@ using nusselt::TexturedTube;
 using nusselt::Vec2;
 using nusselt::Vec3;
 
-template <class T, class Value>
-LineProfile<T> profile_of(int count, const Value& value) {
-    std::vector<Vec3<T>> texels;
-    for (int k = 0; k < count; ++k) {
-        const auto x = static_cast<T>(value((k + 0.5) / count));
-        texels.push_back({x, x, x});
-    }
-    return make_line_profile(texels.data(), count);
-}
-
 struct NamedProfile {
     const char* name;
     LineProfile<double> profile;
@@ -48,7 +36,7 @@ const std::vector<NamedProfile>& profiles() {
     static const std::vector<NamedProfile> list = {
         {"gradient", profile_of<double>(16, [](double x) { return 0.1 + x * x; }), 0.4},
         {"stripes", profile_of<double>(24, [](double x) { return static_cast<int>(6 * x) % 2 + 0.1; }), 0.7},
-        {"dots", profile_of<double>(64, [](double x) { return static_cast<int>(x * 16) % 4 == 0; }), 0.7},
+        {"dots", profile_of<double>(64, dots), 0.7},
     };
     return list;
 }
@@ -57,13 +45,6 @@ std::vector<Cylinder<double>> tubes() {
     return {{make_line<double>({-0.5, 0.3, 1}, {0.5, 0.4, 1.2}), 0.02},
             {make_line<double>({-3, 0.6, 0.5}, {4, 0.5, 0.6}), 0.1},
             {make_line<double>({1, -0.4, -0.7}, {0.8, 0.9, 1.1}), 0.1}};
-}
-
-template <class T>
-nusselt::Ltc<T> glossy_lobe() {
-    const auto c = tilted_lobe(0.5L, 0.4L, 1.1L, 0.1L);
-    return nusselt::Ltc<T>({static_cast<T>(c.m00), static_cast<T>(c.m02), static_cast<T>(c.m11),
-                            static_cast<T>(c.m20), static_cast<T>(c.m22), T(1)});
 }
 
 struct Diffuse {
@@ -168,21 +149,16 @@ TYPED_TEST(TexturedTubeTest, SamplesDensitiesAndInversesAgree) {
 /// Points and directions of all sizes, many of them through the shading point or in its plane.
 template <class Variant, class T>
 void expect_contract_on_hostile_lights() {
-    std::mt19937 random(6);
-    const std::vector<double> coordinates = {0, 0, 1, -1, 0.5, 1e-6, -1e-6, 1e-3, 1e6, -1e6, 1e-9, 0.3333333};
-    const auto pick = [&] {
-        return static_cast<T>(
-            coordinates[std::uniform_int_distribution<std::size_t>(0, coordinates.size() - 1)(random)]);
-    };
+    HostileCoordinates<T> hostile;
     const LineProfile<T> all[] = {profile_of<T>(1, [](double) { return 0; }),
                                   profile_of<T>(64, [](double x) { return x > 0.9; }),
                                   profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); })};
     constexpr T kLargest = std::numeric_limits<T>::max();
     int lit = 0;
     for (int k = 0; k < 400; ++k) {
-        const Vec3<T> a{pick(), pick(), pick()};
-        const Vec3<T> b{pick(), pick(), pick()};
-        const Cylinder<T> tube{make_line(a, b), abs(pick())};
+        const Vec3<T> a = hostile.point(T(1));
+        const Vec3<T> b = hostile.point(T(1));
+        const Cylinder<T> tube{make_line(a, b), abs(hostile())};
         const auto technique = textured<Variant>(tube, all[static_cast<std::size_t>(k) % 3]);
         ASSERT_TRUE(technique.measure() >= 0 && technique.measure() <= kLargest);
         for (const double u : {0.0, 0.25, 0.5, 0.77, 0.9999, 1 - 1e-16}) {

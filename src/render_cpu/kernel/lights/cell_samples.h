@@ -4,12 +4,12 @@
 /// They come from cells for each shading point. Where cells are the lanes, shading points take turns; all that follows a
 /// sample has shading points as lanes again. A light is described by a type `Cells` with
 ///
-///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as TexturedLine;
+///     LaneTechniques<...> diffuse(lanes), specular(lanes, lobe): techniques such as WindowedPolygon;
 ///     Vec3<float> radiance(sample, lane): what the light emits along a sample [W/(sr m^2)];
 ///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m];
 ///     float density(technique, sample): of one of these techniques at a sample of the other one.
 ///
-/// Techniques that have packs of shading points, such as TexturedPolygon, are PackTechnique instead: then the other
+/// Techniques that have packs of shading points, such as TexturedPolygon and TexturedLine, are PackTechnique instead: then the other
 /// functions take and return packs, and `radiance` the sample only.
 
 #include "render_cpu/kernel/paired_techniques.h"
@@ -126,8 +126,8 @@ struct CellDraws {
 };
 
 /// A sample of a technique that takes two random numbers, or one.
-template <class Technique>
-auto sample_of(const Technique& technique, const Vec2<float>& u) noexcept {
+template <class Technique, class Number>
+auto sample_of(const Technique& technique, const Vec2<Number>& u) noexcept {
     if constexpr (requires { technique.sample(u); })
         return technique.sample(u);
     else
@@ -157,7 +157,7 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
 template <class Cells, class Technique, class OtherDensity>
 void draw_cells(const Cells& cells, const PackTechnique<Technique>& technique, LaneMask lanes,
                 const Vec2<Real>& u, const OtherDensity& other_density, CellDraws& draws) noexcept {
-    const auto sample = technique.technique.sample(u);
+    const auto sample = sample_of(technique.technique, u);
     const LaneMask drawn = lanes & technique.present & (sample.pdf != Real(0));
     draws.set(drawn, {sample.wi, sample.pdf, cells.point(sample)}, cells.radiance(sample),
               other_density(sample));

@@ -48,17 +48,9 @@ struct RelativeRadiance {
     void modulate(const LineSegment<Real>& axis, DirectLightSample<Real>& sample) const noexcept {
         if (profile == nullptr) return;
         const Real at = dot(sample.p - axis.p0, axis.s) / axis.length;
-        float x[kLanes];
         // Comparisons with NaN are false.
-        select(at > Real(0), min(at, Real(1)), Real(0)).store(x);
-        Lanes radiance;
-        for (int i = 0; i < kLanes; ++i) {
-            const Vec3<float> value = profile->lookup(x[i]);
-            radiance.x[i] = value.x;
-            radiance.y[i] = value.y;
-            radiance.z[i] = value.z;
-        }
-        sample.shadowed = (broadcast<Real>(inverse_mean) * load(radiance)) * sample.shadowed;
+        const Vector radiance = profile->lookup(select(at > Real(0), min(at, Real(1)), Real(0)));
+        sample.shadowed = (broadcast<Real>(inverse_mean) * radiance) * sample.shadowed;
     }
 };
 

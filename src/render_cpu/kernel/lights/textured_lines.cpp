@@ -10,8 +10,8 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-using DiffuseCells = TexturedLine<float, scene::kMaxLineTexels>;
-using SpecularCells = TexturedLineLtc<float, scene::kMaxLineTexels>;
+using DiffuseCells = TexturedLine<Real, scene::kMaxLineTexels>;
+using SpecularCells = TexturedLineLtc<Real, scene::kMaxLineTexels>;
 
 /// A light as a packet of shading points sees it, see cell_samples.h.
 class LineCells {
@@ -19,26 +19,22 @@ public:
     LineCells(const LineRadiance& profile, const LineSegment<Real>& line) noexcept
         : profile_(profile), line_(line) {}
 
-    LaneTechniques<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
-        return {lanes, [&](int lane) { return DiffuseCells(line(lane), profile_); }};
+    PackTechnique<DiffuseCells> diffuse(LaneMask lanes) const noexcept {
+        return {lanes, DiffuseCells(line_, profile_)};
     }
-    LaneTechniques<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
-        return {lanes, [&](int lane) {
-                    return SpecularCells(line(lane), profile_, {single_lane<Ltc<float>>(lobe, lane)});
-                }};
+    PackTechnique<SpecularCells> specular(LaneMask lanes, const Ltc<Real>& lobe) const noexcept {
+        return {lanes, SpecularCells(line_, profile_, {lobe})};
     }
-    Vec3<float> radiance(const LineTextureSample<float>& sample, int /*lane*/) const noexcept {
+    Vector radiance(const LineTextureSample<Real>& sample) const noexcept {
         return profile_.lookup(sample.at);
     }
-    Vec3<float> point(const LineTextureSample<float>& sample) const noexcept { return sample.p; }
+    Vector point(const LineTextureSample<Real>& sample) const noexcept { return sample.p; }
     template <class Technique>
-    float density(const Technique& technique, const LineTextureSample<float>& sample) const noexcept {
+    Real density(const Technique& technique, const LineTextureSample<Real>& sample) const noexcept {
         return technique.pdf_at(sample.at);
     }
 
 private:
-    LineSegment<float> line(int lane) const noexcept { return single_lane<LineSegment<float>>(line_, lane); }
-
     const LineRadiance& profile_;
     const LineSegment<Real>& line_;
 };

@@ -1,6 +1,6 @@
 // Inputs: a light with a texture, two random numbers, and an LtcCoefficients<float> of C++.
 #include "parity/lobe_input.glsl"
-#include "parity/textured_input.glsl"
+#include "parity/emission/textured_input.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;

@@ -1,13 +1,15 @@
-// Inputs: a light whose radiance depends on the direction, a surface, and two random numbers.
-#include "parity/windowed_input.glsl"
+// Inputs: a light whose radiance depends on the direction, a surface, two random numbers, and an LtcCoefficients<float> of
+// C++.
+#include "parity/lobe_input.glsl"
+#include "parity/emission/windowed_input.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    const uint begin = kWindowedSize * i;
+    const uint begin = (kWindowedSize + kLobeSize) * i;
     const WindowPlane plane = input_plane(begin);
 
-    Technique technique = technique_prepare(plane, input_light(begin));
+    Technique technique = technique_prepare(plane, input_light(begin), input_lobe(begin + kWindowedSize));
     const TexturedSample s = technique_sample(technique, input_random(begin));
     write_windowed(i, s, technique.cells, plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                    technique_measure(technique));

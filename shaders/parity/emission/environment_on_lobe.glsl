@@ -1,5 +1,5 @@
 // Inputs: an environment, two random numbers, and an LtcCoefficients<float> of C++.
-#include "parity/environment_input.glsl"
+#include "parity/emission/environment_input.glsl"
 #include "parity/lobe_input.glsl"
 
 void main() {

@@ -1,5 +1,5 @@
 // Inputs: an environment, and two random numbers.
-#include "parity/environment_input.glsl"
+#include "parity/emission/environment_input.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;

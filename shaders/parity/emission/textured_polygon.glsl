@@ -1,5 +1,5 @@
 // Inputs: a light with a texture, and two random numbers.
-#include "parity/textured_input.glsl"
+#include "parity/emission/textured_input.glsl"
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
