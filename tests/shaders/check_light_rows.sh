@@ -6,7 +6,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 glslang=$1 work=$2
 
 compile() {
-    "$glslang" --quiet --target-env vulkan1.1 -I"$work" -DTEXTURE_IMAGES=0 -DLIGHT_VERTICES=4 -DNUSSELT_FUSED_FMA=0 \
+    "$glslang" --quiet --target-env vulkan1.1 -I"$work" -DTEXTURE_IMAGES=0 -DLIGHT_VERTICES=4 \
         -DEMISSION_CELLS=0 -DNUSSELT_UNROLL= -DNUSSELT_MAX_VERTICES=5 -o "$work/pass.spv" "$work/passes/integrate_lights.comp" \
         >"$work/log" 2>&1
 }
