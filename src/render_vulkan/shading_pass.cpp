@@ -25,12 +25,9 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether images of lights decide where samples are, or are integrated: see shaders/passes/lights/add_cells.glsl.
+/// Whether images of lights decide where samples are, or are integrated: see shaders/passes/lights/polygon_cell_samples.glsl.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
-    const int textured[] = {interface::kTexturedPolygonsConstant, interface::kTexturedLinesConstant,
-                            interface::kTexturedTubesConstant};
-    if (std::none_of(std::begin(textured), std::end(textured), [&](int i) { return constants[i] != 0; }))
-        return false;
+    if (constants[interface::kTexturedPolygonsConstant] == 0) return false;
     return is_analytic(constants) || constants[interface::kEmissionSamplingConstant] ==
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }
