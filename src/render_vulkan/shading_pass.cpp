@@ -32,14 +32,20 @@ bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }
 
+/// Whether radiance varies along lines or tubes: the scene has 8 slots then.
+bool has_line_cells(const std::vector<std::uint32_t>& constants) {
+    return constants[interface::kTexturedLinesConstant] != 0 ||
+           constants[interface::kTexturedTubesConstant] != 0;
+}
+
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
     const bool has_cells = has_emission_cells(constants);
     // Shaders with cells do without fused fma, which is right for all devices.
-    const ShaderVariant variant{scene.polygon_slots(), has_fused_fma(device) && !has_cells, textures.access(),
-                                has_cells};
+    const bool is_fused = has_fused_fma(device) && !has_cells && !has_line_cells(constants);
+    const ShaderVariant variant{scene.polygon_slots(), is_fused, textures.access(), has_cells};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants

@@ -28,7 +28,11 @@ void add_uniform_line(inout Reflected reflected, LocalLine light) {
     add_light(reflected, light.role, integrals);
 }
 
+#if LINE_CELLS
 #include "passes/lights/line_cell_integrals.glsl"
+#else
+void add_line(inout Reflected reflected, LocalLine light) { add_uniform_line(reflected, light); }
+#endif
 
 void add_lines(inout Reflected reflected) {
     for (uint i = first_index(kLineKind); (kHasAnyLines || kHasAnyTubes) && i < end_index(kLineKind); ++i) {

@@ -131,7 +131,13 @@ void add_by_measure(inout Estimate estimate, LocalLine light, bool has_lines, bo
         add_light(estimate, light);
 }
 
+#if LINE_CELLS
 #include "passes/lights/line_cell_samples.glsl"
+#else
+void add_line(inout Estimate estimate, LocalLine light) {
+    add_by_measure(estimate, light, kHasAnyLines, kHasAnyTubes);
+}
+#endif
 
 void add_lines(inout Estimate estimate) {
     for (uint i = first_index(kLineKind); (kHasAnyLines || kHasAnyTubes) && i < end_index(kLineKind); ++i)

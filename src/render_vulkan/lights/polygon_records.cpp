@@ -43,9 +43,11 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
     // Shaders for lights with a texture have room for 8 vertices only.
-    const bool are_small = std::all_of(lights.begin(), lights.end(), [](const auto& light) {
-        return light.vertices.size() <= 4 && light.texture < 0;
-    });
+    const auto& lines = scene.lights.of<scene::LineLight>();
+    const bool are_small =
+        std::all_of(lights.begin(), lights.end(),
+                    [](const auto& light) { return light.vertices.size() <= 4 && light.texture < 0; }) &&
+        std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.texture < 0; });
     records.polygon_slots = are_small ? 4 : 8;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
