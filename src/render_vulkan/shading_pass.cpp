@@ -6,7 +6,6 @@
 #include "render_vulkan/shading_shaders.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -27,17 +26,13 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether images of lights decide where samples are, or are integrated: see shaders/passes/lights/add_cells.glsl. Shaders
-/// for environments are the same.
+/// Whether images of polygons decide where samples are, or are integrated: see
+/// shaders/passes/lights/polygon_cell_samples.glsl. Shaders for environments are the same.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
-    const auto has_any = [&](std::initializer_list<int> kinds) {
-        return std::any_of(kinds.begin(), kinds.end(),
-                           [&](int kind) { return constants[static_cast<std::size_t>(kind)] != 0; });
-    };
-    if (has_any({interface::kUniformEnvironmentsConstant, interface::kMappedEnvironmentsConstant})) return true;
-    if (!has_any({interface::kTexturedPolygonsConstant, interface::kTexturedLinesConstant,
-                  interface::kTexturedTubesConstant}))
-        return false;
+    if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
+        constants[interface::kMappedEnvironmentsConstant] != 0)
+        return true;
+    if (constants[interface::kTexturedPolygonsConstant] == 0) return false;
     return is_analytic(constants) || constants[interface::kEmissionSamplingConstant] ==
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }

@@ -9,15 +9,19 @@
 
 #include "emission/textured_lights.h"
 #include "hypothesis.h"
+#include "ltc/lobes.h"
 
 namespace nusselt_test {
 namespace {
 
 using nusselt::DescentByProduct;
 using nusselt::DescentByRadiance;
+using nusselt::LobeCells;
 using nusselt::NearestFilter;
 using nusselt::TexturedPolygon;
+using nusselt::TexturedPolygonLtc;
 using nusselt::Vec2;
+using nusselt::Vec3;
 using Plane = nusselt::TexturePlane<double>;
 
 constexpr int kTexels = 64;
@@ -43,6 +47,29 @@ std::vector<Plane> planes() {
     };
 }
 
+/// The surface that a technique is for. Points have density where they have a positive height.
+template <class Technique>
+struct SurfaceOf {
+    static Technique make(const Plane& plane, const typename Technique::Light& light) {
+        return Technique(plane, light);
+    }
+    static double height(const Vec3<double>& p) { return p.z; }
+};
+template <int n, class Descent>
+struct SurfaceOf<TexturedPolygon<double, n, Descent, LobeCells<double>>> {
+    using Technique = TexturedPolygon<double, n, Descent, LobeCells<double>>;
+
+    static nusselt::Ltc<double> lobe() {
+        const auto c = tilted_lobe(0.6L, 0.3L, 1.1L, 0.1L);
+        return nusselt::Ltc<double>(
+            {double(c.m00), double(c.m02), double(c.m11), double(c.m20), double(c.m22), 1});
+    }
+    static Technique make(const Plane& plane, const typename Technique::Light& light) {
+        return Technique(plane, light, {lobe()});
+    }
+    static double height(const Vec3<double>& p) { return lobe().to_cosine(p).z; }
+};
+
 /// Expected numbers of samples per texel, by quadrature of the density. The last one is of samples without density.
 template <class Technique>
 std::vector<double> expected_counts(const Technique& technique, const Plane& plane) {
@@ -56,7 +83,7 @@ std::vector<double> expected_counts(const Technique& technique, const Plane& pla
             double sum = 0;
             for (int k = 0; k < kSteps * kSteps; ++k) {
                 const Vec2<double> at{(i + kNode[k % kSteps]) / kTexels, (j + kNode[k / kSteps]) / kTexels};
-                if (plane.point_at(at).z > 0)
+                if (SurfaceOf<Technique>::height(plane.point_at(at)) > 0)
                     sum += kWeight * technique.pdf_at(at) * solid_angle_density(plane, at);
             }
             counts.push_back(sum * kSamples / (kTexels * kTexels));
@@ -93,10 +120,9 @@ double p_value(const Technique& technique, const Plane& plane, const Sample& sam
         for (int i = 0; i < kTexels; ++i) {
             int above = 0;
             for (int k = 0; k < 4; ++k)
-                above += plane
-                             .point_at({static_cast<double>(i + k % 2) / kTexels,
-                                        static_cast<double>(j + k / 2) / kTexels})
-                             .z > 0;
+                above += SurfaceOf<Technique>::height(
+                             plane.point_at({static_cast<double>(i + k % 2) / kTexels,
+                                             static_cast<double>(j + k / 2) / kTexels})) > 0;
             if (above == 0 || above == 4) continue;
             const auto texel = static_cast<std::size_t>(j * kTexels + i);
             expected[texel] = static_cast<double>(observed[texel] = 0);
@@ -109,8 +135,8 @@ double p_value(const Technique& technique, const Plane& plane, const Sample& sam
 
 template <class Technique>
 class TexturedSamplesTest : public ::testing::Test {};
-using Techniques =
-    ::testing::Types<TexturedPolygon<double, 16>, TexturedPolygon<double, 8, DescentByProduct>>;
+using Techniques = ::testing::Types<TexturedPolygon<double, 16>, TexturedPolygon<double, 8, DescentByProduct>,
+                                    TexturedPolygonLtc<double, 16>>;
 TYPED_TEST_SUITE(TexturedSamplesTest, Techniques);
 
 template <class Technique>
@@ -119,7 +145,7 @@ using LightOf = StoredLight<double, Technique::Light::kCells == 256 ? 16 : 8>;
 TYPED_TEST(TexturedSamplesTest, FollowTheirDensity) {
     const LightOf<TypeParam> stored(NearestFilter(), texture().view(), unit_square<double>());
     for (const Plane& plane : planes()) {
-        const TypeParam technique(plane, stored.light);
+        const TypeParam technique = SurfaceOf<TypeParam>::make(plane, stored.light);
         EXPECT_GT(p_value(technique, plane, [&](const Vec2<double>& u) { return technique.sample(u); }),
                   kAccepted);
     }
@@ -128,7 +154,7 @@ TYPED_TEST(TexturedSamplesTest, FollowTheirDensity) {
 TYPED_TEST(TexturedSamplesTest, ShiftOfATexelIsRejected) {
     const LightOf<TypeParam> stored(NearestFilter(), texture().view(), unit_square<double>());
     const Plane plane = planes()[2];
-    const TypeParam technique(plane, stored.light);
+    const TypeParam technique = SurfaceOf<TypeParam>::make(plane, stored.light);
     const auto shifted = [&](const Vec2<double>& u) {
         auto s = technique.sample(u);
         s.at.x = std::min(s.at.x + 1.0 / kTexels, 0.999999);
@@ -141,7 +167,7 @@ TYPED_TEST(TexturedSamplesTest, ShiftOfATexelIsRejected) {
 TYPED_TEST(TexturedSamplesTest, MissingJacobianIsRejected) {
     const LightOf<TypeParam> stored(NearestFilter(), texture().view(), unit_square<double>());
     const Plane plane = planes()[2];
-    const TypeParam technique(plane, stored.light);
+    const TypeParam technique = SurfaceOf<TypeParam>::make(plane, stored.light);
     std::mt19937 random(9);
     std::uniform_real_distribution<double> uniform(0, 1);
     const double cells = TypeParam::Light::kCells == 256 ? 16 : 8;
@@ -160,9 +186,10 @@ TYPED_TEST(TexturedSamplesTest, MissingJacobianIsRejected) {
 TYPED_TEST(TexturedSamplesTest, WrongCosineIsRejected) {
     const LightOf<TypeParam> stored(NearestFilter(), texture().view(), unit_square<double>());
     const Plane plane = planes()[2];
-    const TypeParam technique(plane, stored.light);
+    const TypeParam technique = SurfaceOf<TypeParam>::make(plane, stored.light);
     const auto frame = nusselt::Frame<double>::from_normal({std::sin(0.1), 0, std::cos(0.1)});
-    const TypeParam turned(to_shading_space(plane, {0, 0, 0}, frame), stored.light);
+    const TypeParam turned =
+        SurfaceOf<TypeParam>::make(to_shading_space(plane, {0, 0, 0}, frame), stored.light);
     EXPECT_LT(p_value(technique, plane, [&](const Vec2<double>& u) { return turned.sample(u); }), kRejected);
 }
 

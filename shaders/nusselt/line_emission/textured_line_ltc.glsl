@@ -51,15 +51,17 @@ vec3 textured_line_ltc_unshadowed(TexturedLineLtc self) { return self.cells.expe
 TexturedSample textured_line_ltc_sample(TexturedLineLtc self, float u) {
     if (!(self.cells.total > 0.0)) return no_textured_sample();
     LineSpot spot = line_cells_spot_of(self.cells, u);
-    return line_cells_sample(self.cells, spot, line_ltc_sample(textured_line_ltc_technique(self, spot.cell), spot.x));
+    LineLtc technique = textured_line_ltc_technique(self, spot.cell);
+    return line_cells_sample(self.cells, spot, line_ltc_sample(technique, spot.x), line_ltc_measure(technique));
 }
 
 /// The density of a direction. \param at share of the length before the point there.
 float textured_line_ltc_density(TexturedLineLtc self, vec3 wi, float at) {
     LineCell cell = line_cells_cell(self.cells, line_cells_cell_at(self.cells, at));
-    if (!(cell.probability > 0.0) || wi.z < 0.0) return 0.0;
+    if (wi.z < 0.0) return 0.0;
     LineLtc technique = textured_line_ltc_technique(self, cell);
-    return line_cells_density(self.cells, cell, line_ltc_invert(technique, wi), line_ltc_pdf(technique, wi));
+    return line_cells_density(self.cells, cell, line_ltc_invert(technique, wi),
+                              line_ltc_measure(technique) * line_ltc_pdf(technique, wi));
 }
 
 /// \param wi a unit direction towards the light.
@@ -79,7 +81,7 @@ float textured_line_ltc_invert(TexturedLineLtc self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return 0.0;
     int k = line_cells_cell_at(self.cells, line_cells_position_of(self.cells, wi));
     LineCell cell = line_cells_cell(self.cells, k);
-    return line_cells_united(self.cells, k, cell, line_ltc_invert(textured_line_ltc_technique(self, cell), wi));
+    return line_cells_united(self.cells, line_cells_sums(self.cells, kNusseltLargest, k), cell, line_ltc_invert(textured_line_ltc_technique(self, cell), wi));
 }
 
 #endif

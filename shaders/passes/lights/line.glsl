@@ -2,6 +2,10 @@
 #define NUSSELT_PASSES_LIGHTS_LINE_GLSL
 /// Linear lights, strips and tubes as a shading point and a camera see them, as in src/render_cpu/kernel/lights/line.cpp.
 
+#ifndef LINE_CELLS
+#error LINE_CELLS must be 1 where radiance along lines may decide where samples are, else 0: those shaders are larger
+#endif
+
 #include "nusselt/geometry/cylinder_caps.glsl"
 #include "nusselt/geometry/strip.glsl"
 #include "passes/lights/light_role.glsl"

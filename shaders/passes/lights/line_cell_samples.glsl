@@ -16,30 +16,29 @@ TexturedSample cells_sample(LineLightCells cells, int technique, vec2 u) {
     LineCells self = cells.of_technique[technique];
     if (!(self.total > 0.0)) return no_textured_sample();
     LineSpot spot = line_cells_spot_of(self, u.x);
-    LightSample s;
-    if (kStrategies == kStrategiesDiffuseLtc && technique == 1)
-        s = line_ltc_sample(line_clipped_ltc_prepare(spot.cell.part, cells.lobe), spot.x);
-    else
-        s = line_projected_solid_angle_sample(line_projected_solid_angle_prepare(spot.cell.part), spot.x);
-    return line_cells_sample(self, spot, s);
+    if (kStrategies == kStrategiesDiffuseLtc && technique == 1) {
+        LineLtc of_cell = line_clipped_ltc_prepare(spot.cell.part, cells.lobe);
+        return line_cells_sample(self, spot, line_ltc_sample(of_cell, spot.x), line_ltc_measure(of_cell));
+    }
+    LineProjectedSolidAngle of_cell = line_projected_solid_angle_prepare(spot.cell.part);
+    return line_cells_sample(self, spot, line_projected_solid_angle_sample(of_cell, spot.x),
+                             line_projected_solid_angle_measure(of_cell));
 }
 
 // As textured_line_density() and textured_line_ltc_density().
 float cells_pdf(LineLightCells cells, int technique, TexturedSample s) {
     LineCells self = cells.of_technique[technique];
     LineCell cell = line_cells_cell(self, line_cells_cell_at(self, s.at.x));
-    if (!(self.total > 0.0) || !(cell.probability > 0.0)) return 0.0;
-    float x, whole;
+    if (!(self.total > 0.0) || s.wi.z < 0.0) return 0.0;
     if (technique == 1) {
         LineLtc of_cell = line_clipped_ltc_prepare(cell.part, cells.lobe);
-        x = line_ltc_invert(of_cell, s.wi);
-        whole = line_ltc_pdf(of_cell, s.wi);
-    } else {
-        LineProjectedSolidAngle of_cell = line_projected_solid_angle_prepare(cell.part);
-        x = line_projected_solid_angle_invert(of_cell, s.wi);
-        whole = line_projected_solid_angle_pdf(of_cell, s.wi);
+        return line_cells_density(self, cell, line_ltc_invert(of_cell, s.wi),
+                                  line_ltc_measure(of_cell) * line_ltc_pdf(of_cell, s.wi));
     }
-    return line_cells_density(self, cell, x, whole);
+    LineProjectedSolidAngle of_cell = line_projected_solid_angle_prepare(cell.part);
+    return line_cells_density(self, cell, line_projected_solid_angle_invert(of_cell, s.wi),
+                              line_projected_solid_angle_measure(of_cell) *
+                                  line_projected_solid_angle_pdf(of_cell, s.wi));
 }
 
 vec3 cells_radiance(LineLightCells cells, vec2 at) {

@@ -28,7 +28,7 @@ void add_uniform_line(inout Reflected reflected, LocalLine light) {
     add_light(reflected, light.role, integrals);
 }
 
-#if EMISSION_CELLS
+#if LINE_CELLS
 #include "passes/lights/line_cell_integrals.glsl"
 #else
 void add_line(inout Reflected reflected, LocalLine light) { add_uniform_line(reflected, light); }

@@ -131,7 +131,7 @@ void add_by_measure(inout Estimate estimate, LocalLine light, bool has_lines, bo
         add_light(estimate, light);
 }
 
-#if EMISSION_CELLS
+#if LINE_CELLS
 #include "passes/lights/line_cell_samples.glsl"
 #else
 void add_line(inout Estimate estimate, LocalLine light) {

@@ -146,7 +146,7 @@ void draw_cells(const Cells& cells, const LaneTechniques<Technique>& techniques,
     const std::uint32_t bits = lanes.bits();
     for (int lane = 0; lane < kLanes; ++lane) {
         if ((bits >> lane & 1u) == 0 || !techniques.has(lane)) continue;
-        const auto sample = sample_of(techniques[lane], {x[lane], y[lane]});
+        const auto sample = sample_of(techniques[lane], Vec2<float>{x[lane], y[lane]});
         draws.set(lane, sample, cells.point(sample), cells.radiance(sample, lane));
         draws.other[lane] = sample.pdf != 0 ? other_density(lane, sample) : 0.0f;
     }
