@@ -266,33 +266,40 @@ private:
 
     /// Finds which cells the outline cuts, and replaces the angles of these and of those that the horizon cuts.
     NUSSELT_HD void clip_angles(T (&angle)[n * n]) noexcept {
-        const auto z_at = [&](int i, int j) {
-            return image_.corner.z +
-                   (columns_.offset[i] * image_.side_x.z + rows_.offset[j] * image_.side_y.z);
-        };
-        const auto lowest_of = [&](int i, int j, int size) {
-            return min(min(z_at(i, j), z_at(i + size, j)), min(z_at(i, j + size), z_at(i + size, j + size)));
-        };
+        const Vec2<T> box_low{columns_.offset[0], rows_.offset[0]};
+        const Vec2<T> box_high{columns_.offset[n], rows_.offset[n]};
         constexpr std::uint64_t kAll = ~std::uint64_t{0};
-        const bool is_uncut =
-            outline_.contains({columns_.offset[0], rows_.offset[0]}, {columns_.offset[n], rows_.offset[n]});
+        const bool is_uncut = outline_.contains(box_low, box_high);
         whole_ = is_uncut ? kAll : 0;
-        if (is_uncut && lowest_of(0, 0, n) >= T(0)) return;
+        if (is_uncut && heights_of(box_low, box_high).x >= T(0)) return;
         for (int j = 0; j < n; ++j) {
             for (int i = 0; i < n; ++i) {
                 const Cell cell{i, j, T(0), {T(0), T(0)}};
                 const Vec2<T> low = low_of(cell);
                 const Vec2<T> high = high_of(cell);
-                if (outline_.contains(low, high)) whole_ |= std::uint64_t{1} << index_of(i, j);
-                if (is_whole(cell) && lowest_of(i, j, 1) >= T(0)) continue;
-                constexpr int kCorners = TexturePart<T>::kMostCorners;
-                const TexturePart<T> part = outline_.part_in(low, high);
-                angle[index_of(i, j)] =
-                    part.count < 3
-                        ? T(0)
-                        : projected_solid_angle(polygon_in<kCorners>(image_, part.corner, part.count));
+                if (!is_uncut && outline_.contains(low, high)) whole_ |= std::uint64_t{1} << index_of(i, j);
+                const Vec2<T> heights = heights_of(low, high);
+                if (!(heights.x >= T(0)) || !is_whole(cell))
+                    angle[index_of(i, j)] = heights.y > T(0) ? clipped_angle(cell, low, high) : T(0);
             }
         }
+    }
+
+    /// The lowest and the highest corner of a rectangle of the image.
+    NUSSELT_HD Vec2<T> heights_of(const Vec2<T>& low, const Vec2<T>& high) const noexcept {
+        const T left = low.x * image_.side_x.z, right = high.x * image_.side_x.z;
+        const T bottom = low.y * image_.side_y.z, top = high.y * image_.side_y.z;
+        return {image_.corner.z + (min(left, right) + min(bottom, top)),
+                image_.corner.z + (max(left, right) + max(bottom, top))};
+    }
+
+    /// The projected solid angle of what the horizon and the outline leave of a cell.
+    NUSSELT_HD T clipped_angle(const Cell& cell, const Vec2<T>& low, const Vec2<T>& high) const noexcept {
+        if (is_whole(cell)) return projected_solid_angle(rectangle_in(image_, low, high));
+        constexpr int kCorners = TexturePart<T>::kMostCorners;
+        const TexturePart<T> part = outline_.part_in(low, high);
+        if (part.count < 3) return T(0);
+        return projected_solid_angle(polygon_in<kCorners>(image_, part.corner, part.count));
     }
 
     NUSSELT_HD static int index_of(int column, int row) noexcept { return row * n + column; }

@@ -9,14 +9,14 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-/// Columns and rows of the lattice of cells.
-constexpr int kCells = 8;
-using DiffuseCells = WindowedPolygon<float, kCells>;
-using SpecularCells = WindowedPolygonLtc<float, kCells>;
-
 /// A light with a profile as a packet of shading points sees it, see cell_samples.h. Radiance is relative to its mean.
+/// \tparam n columns and rows of the lattice of cells
+template <int n>
 class ProfileCells {
 public:
+    using DiffuseCells = WindowedPolygon<float, n>;
+    using SpecularCells = WindowedPolygonLtc<float, n>;
+
     /// \param is_behind lanes that see the back of the light
     ProfileCells(const render_cpu::PolygonProfile& profile, const Surface& surface,
                  LaneMask is_behind) noexcept
@@ -62,24 +62,50 @@ private:
 template <int N>
 using WithoutProfile = LocalLight<ConvexPolygon<Real, N>>;
 
-template <int N>
-using AddCells = void (*)(ReflectedLight&, const ProfileCells&, const WithoutProfile<N>&) noexcept;
+// What to do with the cells of a light. Few of them are enough for samples of luminaires, but closed-form shading takes the mean
+// of each.
+struct AddByCells {
+    static constexpr int kLuminaireCells = 4;
+    template <class Cells, class Light>
+    static void add(ReflectedLight& reflected, const Cells& cells, const Light& light) noexcept {
+        add_by_cells(reflected, cells, light);
+    }
+};
+struct AddByCellPair {
+    static constexpr int kLuminaireCells = 4;
+    template <class Cells, class Light>
+    static void add(ReflectedLight& reflected, const Cells& cells, const Light& light) noexcept {
+        add_by_cell_pair(reflected, cells, light);
+    }
+};
+struct AddCellIntegrals {
+    static constexpr int kLuminaireCells = 8;
+    template <class Cells, class Light>
+    static void add(ReflectedLight& reflected, const Cells& cells, const Light& light) noexcept {
+        add_cell_integrals(reflected, cells, light);
+    }
+};
 
-template <int N>
-void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& lights, std::int32_t index,
-                    AddCells<N> add) noexcept {
+template <int N, class Add>
+void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& lights,
+                    std::int32_t index) noexcept {
     const auto light = PolygonLight<N>::local(reflected, lights, index);
     if (!any(light.lit)) return;
     const LaneMask is_behind = light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
-    const ProfileCells cells(*light.shape.profile, reflected.surface(), is_behind);
+    const render_cpu::PolygonProfile& profile = *light.shape.profile;
     const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
-    add(reflected, cells, plain);
+    // A spread falls to zero within its window.
+    if (profile.inverse_slope == 0)
+        Add::add(reflected, ProfileCells<Add::kLuminaireCells>(profile, reflected.surface(), is_behind),
+                 plain);
+    else
+        Add::add(reflected, ProfileCells<8>(profile, reflected.surface(), is_behind), plain);
 }
 
-template <int N, AddCells<N> add>
+template <int N, class Add>
 void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                   std::int32_t index) noexcept {
-    add_by_profile<N>(static_cast<ReflectedLight&>(packet), lights, index, add);
+    add_by_profile<N, Add>(static_cast<ReflectedLight&>(packet), lights, index);
 }
 
 /// Points from which the profile hardly varies over the light: all of it is in a few degrees, or in a part of the spread.
@@ -99,7 +125,7 @@ LaneMask sees_few_directions(const LocalPolygon<N>& shape) noexcept {
 }
 
 /// Samples from cells where the profile varies over the light. Elsewhere they would cost much and gain little.
-template <int N, AddCells<N> add>
+template <int N, class Add>
 void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                           std::int32_t index) noexcept {
     auto& reflected = static_cast<ReflectedLight&>(packet);
@@ -109,7 +135,7 @@ void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::Light
     const render_cpu::RenderJob& job = reflected.job();
     if (any(is_near)) {
         ReflectedLight part = reflected.with(is_near, job.samples_per_light);
-        add_by_profile<N>(part, lights, index, add);
+        add_by_profile<N, Add>(part, lights, index);
         reflected.add(part);
     }
     if (any(is_far)) {
@@ -122,10 +148,10 @@ void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::Light
 template <int N>
 render_cpu::AddLight choose_technique(const render_cpu::RenderJob& job) noexcept {
     using render::Strategies;
-    if (job.technique == render::Technique::ltc_analytic) return &add_profiled<N, &add_cell_integrals>;
+    if (job.technique == render::Technique::ltc_analytic) return &add_profiled<N, AddCellIntegrals>;
     if (takes_windowed_products(job)) {
-        if (job.strategies == Strategies::diffuse) return &add_profiled_samples<N, &add_by_cells>;
-        if (job.strategies == Strategies::diffuse_ltc) return &add_profiled_samples<N, &add_by_cell_pair>;
+        if (job.strategies == Strategies::diffuse) return &add_profiled_samples<N, AddByCells>;
+        if (job.strategies == Strategies::diffuse_ltc) return &add_profiled_samples<N, AddByCellPair>;
     }
     return polygon_points<N>(job);
 }
