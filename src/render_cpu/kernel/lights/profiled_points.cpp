@@ -86,6 +86,11 @@ struct AddCellIntegrals {
     }
 };
 
+/// How fast a spread or a honeycomb falls off with the slope of directions; 0 without either.
+float steepest_slope(const render_cpu::PolygonProfile& profile) noexcept {
+    return max(profile.inverse_slope, max(profile.inverse_holes.x, profile.inverse_holes.y));
+}
+
 template <int N, class Add>
 void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& lights,
                     std::int32_t index) noexcept {
@@ -94,8 +99,8 @@ void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& light
     const LaneMask is_behind = light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
     const render_cpu::PolygonProfile& profile = *light.shape.profile;
     const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
-    // A spread falls to zero within its window.
-    if (profile.inverse_slope == 0)
+    // A spread or a honeycomb falls to zero within its window.
+    if (steepest_slope(profile) == 0)
         Add::add(reflected, ProfileCells<Add::kLuminaireCells>(profile, reflected.surface(), is_behind),
                  plain);
     else
@@ -112,9 +117,7 @@ void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lig
 template <int N>
 LaneMask sees_few_directions(const LocalPolygon<N>& shape) noexcept {
     constexpr float kFewDirections = 0.15f;
-    const scene::Float2& holes = shape.profile->inverse_holes;
-    const float slope = max(shape.profile->inverse_slope, max(holes.x, holes.y));
-    const float largest = kFewDirections / max(slope, 1.0f);
+    const float largest = kFewDirections / max(steepest_slope(*shape.profile), 1.0f);
     Real nearest = dot(shape.vertex[0], shape.vertex[0]);
     Real longest = dot(shape.edge[0], shape.edge[0]);
     for (int j = 1; j < N; ++j) {
