@@ -25,7 +25,7 @@ double whole_area(const LineLight& light) { return area(light); }
 
 /// The radiance of each light.
 template <class Light>
-std::vector<Float3> radiances(const ShapeDescription& shape, const std::string& subject,
+std::vector<Float3> radiances(const Emission& emission, const Location& origin, const std::string& subject,
                               const std::vector<Light>& lights, const ProfiledShape& profiled) {
     double all = 0;
     double power = 0; // as measured, for a colour with the luminance 1
@@ -34,14 +34,13 @@ std::vector<Float3> radiances(const ShapeDescription& shape, const std::string& 
         if (!profiled.radiance.empty())
             power += std::numbers::pi * whole_area(lights[i]) * profiled.radiance[i];
     }
-    const Emission& emission = shape.emission;
     if (profiled.radiance.empty())
-        return std::vector<Float3>(lights.size(), radiance_of(emission, all, subject, shape.origin));
+        return std::vector<Float3>(lights.size(), radiance_of(emission, all, subject, origin));
     const double factor = !emission.power ? 1 : power > 0 ? *emission.power / power : 0;
     std::vector<Float3> result;
     for (const double radiance : profiled.radiance) {
         result.push_back(to_float(factor * radiance * to_double(emission.radiance)));
-        check_radiance(result.back(), subject, shape.origin);
+        check_radiance(result.back(), subject, origin);
     }
     return result;
 }
@@ -87,7 +86,8 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
         profile_shape(lights, edge_from(lights.front(), first), shape.emission.profile);
     built.triangle_light = std::move(partition.polygon_of_triangle);
     if (profiled) {
-        const std::vector<Float3> radiance = radiances(shape, words.emission, lights, *profiled);
+        const std::vector<Float3> radiance =
+            radiances(shape.emission, shape.origin, words.emission, lights, *profiled);
         for (std::size_t i = 0; i < lights.size(); ++i) {
             lights[i].radiance = radiance[i];
             lights[i].profile = static_cast<std::int32_t>(i);
@@ -109,7 +109,9 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
 void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built) {
     ProfiledShape profiled = profile_line(light, shape.emission.profile);
-    light.radiance = radiances(shape, words.emission, std::vector{light}, profiled).front();
+    Emission outwards = shape.emission;
+    outwards.two_sided = false;
+    light.radiance = radiances(outwards, shape.origin, words.emission, std::vector{light}, profiled).front();
     light.profile = 0;
     warn_of_lost_flux(shape, *profiled.emissions.front().profile, built.warnings);
     built.emission_profiles = std::move(profiled.emissions);
