@@ -13,6 +13,9 @@ namespace nusselt::interface {
 using uint = std::uint32_t;
 #endif
 
+/// In place of the number of an emission word: there are none.
+const uint kNoWords = 0xffffffffu;
+
 // Kinds are numbered from 0 without gaps.
 const int kPolygonKind = 0;
 const int kLineKind = 1;
@@ -28,7 +31,9 @@ const int kPointsConstant = kFirstLightConstant + 3;
 const int kPointImagesConstant = kFirstLightConstant + 4; ///< points whose intensity comes from an image
 const int kDistantsConstant = kFirstLightConstant + 5;
 const int kTexturedPolygonsConstant = kFirstLightConstant + 6; ///< polygons that emit an image
-const int kConstantCount = kFirstLightConstant + 7;
+const int kPointProfilesConstant = kFirstLightConstant + 7;    ///< points that shine as a luminaire
+const int kProfiledPolygonsConstant = kFirstLightConstant + 8; ///< polygons whose radiance depends on the direction
+const int kConstantCount = kFirstLightConstant + 9;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -45,7 +50,8 @@ struct PolygonLightRecord {
     float normal[3];
     float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
-    int texture_number; ///< index of its PolygonTextureRecord, -1 for uniform radiance
+    int texture_number;      ///< index of its PolygonTextureRecord, -1 for none
+    uint first_profile_word; ///< of interface/profiles.h, kNoWords for none
 };
 
 /// The image that a polygon emits.
@@ -85,6 +91,7 @@ const uint kQuarticCone = 2;
 const uint kOctahedralImage = 3;
 const uint kLatitudeImage = 4;
 const uint kProjectedImage = 5;
+const uint kProfile = 6;
 
 struct PointLightRecord {
     float position[3];
@@ -96,7 +103,8 @@ struct PointLightRecord {
     float cone_end;           ///< scene::ConeFalloff::end
     float inverse_cone_width; ///< scene::inverse_width()
     float half_extent[2];
-    int texture_number; ///< -1 for none
+    int texture_number;        ///< -1 for none
+    uint first_luminaire_word; ///< of interface/profiles.h, kNoWords for none
 };
 
 struct DistantLightRecord {

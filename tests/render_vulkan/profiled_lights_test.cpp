@@ -1,0 +1,83 @@
+/// Polygonal lights whose radiance depends on the direction: the GPU renders the image of the CPU.
+
+#include "comparison.h"
+#include "gpu_test.h"
+#include "rich_scene.h"
+#include "scene/model/profiles/emission_profile.h"
+
+#include <cstdint>
+#include <span>
+
+namespace nusselt::render_vulkan_test {
+namespace {
+
+using render::EmissionSampling;
+using render::Strategies;
+using render::Technique;
+using render_vulkan::VulkanRenderer;
+using scene::Float3;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+/// Gives a light a profile. \param light that has its radiance and vertices
+void set_profile(scene::Scene& scene, scene::PolygonLight& light, const scene::ProfileRequest& request) {
+    const auto shape = scene::profile_shape(std::span(&light, 1), 0, request);
+    light.profile = static_cast<std::int32_t>(scene.emission_profiles.size());
+    scene.emission_profiles.push_back(shape->emissions.at(0));
+}
+
+/// A panel that shines as a luminaire and a triangle with a spread, which the camera sees.
+scene::Scene make_polygon_scene(int width, int height, double angle) {
+    scene::Scene scene = make_plain_scene(width, height);
+    // Drivers take the longer for each kind of light.
+    scene.lights.of<scene::LineLight>().clear();
+    auto& lights = scene.lights.of<scene::PolygonLight>();
+    lights.resize(1);
+    set_profile(scene, lights[0], {make_luminaire(), 150, angle});
+    const Float3 corners[] = {{-1.2f, 1.6f, 0.4f}, {-0.2f, 1.6f, 0.4f}, {-0.7f, 1.6f, 1.6f}};
+    scene::PolygonLight triangle;
+    triangle.emitter = static_cast<std::uint32_t>(scene.emitters.size());
+    scene.emitters.push_back({"triangle"});
+    triangle.vertices = {corners[0], corners[1], corners[2]};
+    triangle.radiance = {2, 3, 1};
+    triangle.two_sided = true;
+    set_profile(scene, triangle, {nullptr, 100, 0});
+    lights.push_back(triangle);
+    return scene;
+}
+
+class ProfiledLights : public parity::GpuTest {
+protected:
+    VulkanRenderer renderer_of(const scene::Scene& scene) const {
+        return {device(), scene, render_vulkan::default_shadow_rays(device())};
+    }
+
+    /// \param mutant another scene, whose image differs
+    void expect_agreement(const scene::Scene& scene, const scene::Scene& mutant,
+                          const render::RenderSettings& settings) const {
+        const render::RenderResult result = renderer_of(scene).render(settings);
+        EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), lab::kLargestDifferingShare);
+        EXPECT_EQ(result.statistics.rejected_samples, 0u);
+        EXPECT_GT(differing_share(result.image, render_on_cpu(mutant, settings)),
+                  2 * lab::kLargestDifferingShare);
+    }
+};
+
+render::RenderSettings centred() {
+    render::RenderSettings settings;
+    settings.pixel_position = render::PixelPosition::center;
+    settings.samples = 2;
+    settings.emission_sampling = EmissionSampling::measure;
+    return settings;
+}
+
+TEST_F(ProfiledLights, SampledByTheirMeasure_AgreeWithTheCpu) {
+    render::RenderSettings settings = centred();
+    settings.strategies = Strategies::diffuse_ltc;
+    expect_agreement(make_polygon_scene(kWidth, kHeight, 30), make_polygon_scene(kWidth, kHeight, 50),
+                     settings);
+}
+
+} // namespace
+} // namespace nusselt::render_vulkan_test
