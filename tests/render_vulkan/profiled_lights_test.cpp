@@ -2,11 +2,13 @@
 
 #include "comparison.h"
 #include "gpu_test.h"
+#include "render_vulkan/backend.h"
 #include "rich_scene.h"
 #include "scene/model/profiles/emission_profile.h"
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 
 namespace nusselt::render_vulkan_test {
 namespace {
@@ -77,6 +79,26 @@ TEST_F(ProfiledLights, SampledByTheirMeasure_AgreeWithTheCpu) {
     settings.strategies = Strategies::diffuse_ltc;
     expect_agreement(make_polygon_scene(kWidth, kHeight, 30), make_polygon_scene(kWidth, kHeight, 50),
                      settings);
+}
+
+TEST_F(ProfiledLights, AreNotIntegrated) {
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::ltc_analytic;
+    VulkanRenderer renderer = renderer_of(make_polygon_scene(8, 8, 30));
+    EXPECT_THROW(renderer.render(settings), std::runtime_error);
+}
+
+TEST_F(ProfiledLights, HaveAWarningWhereTheyAreSampledByTheirMeasureInPlaceOfProducts) {
+    const render_vulkan::VulkanBackend backend({.validation = gpu::Validation::on},
+                                               render_vulkan::ShadowRays::none);
+    scene::Scene scene = make_polygon_scene(8, 8, 30);
+    render::RenderSettings settings;
+    EXPECT_EQ(backend.warnings(scene, settings).size(), 1u);
+    settings.emission_sampling = EmissionSampling::measure;
+    EXPECT_EQ(backend.warnings(scene, settings).size(), 0u);
+    settings = {};
+    for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>()) light.profile = -1;
+    EXPECT_EQ(backend.warnings(scene, settings).size(), 0u);
 }
 
 } // namespace

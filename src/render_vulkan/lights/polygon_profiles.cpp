@@ -5,8 +5,8 @@
 #include "scene/model/profiles/emission_profile.h"
 #include "scene/model/vector_math.h"
 
-#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 
 namespace nusselt::render_vulkan {
