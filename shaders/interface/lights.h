@@ -36,7 +36,9 @@ const int kUniformEnvironmentsConstant = kFirstLightConstant + 7;
 const int kMappedEnvironmentsConstant = kFirstLightConstant + 8;
 const int kTexturedLinesConstant = kFirstLightConstant + 9; ///< and strips, whose radiance varies along them
 const int kTexturedTubesConstant = kFirstLightConstant + 10;
-const int kConstantCount = kFirstLightConstant + 11;
+const int kPointProfilesConstant = kFirstLightConstant + 11;    ///< points that shine as a luminaire
+const int kProfiledPolygonsConstant = kFirstLightConstant + 12; ///< polygons whose radiance depends on the direction
+const int kConstantCount = kFirstLightConstant + 13;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -54,7 +56,8 @@ struct PolygonLightRecord {
     float normal[3];
     float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
-    int texture_number; ///< index of its PolygonTextureRecord, -1 for uniform radiance
+    int texture_number;      ///< index of its PolygonTextureRecord, -1 for none
+    uint first_profile_word; ///< of interface/profiles.h, kNoWords for none
 };
 
 /// The image that a polygon emits.
@@ -96,6 +99,7 @@ const uint kQuarticCone = 2;
 const uint kOctahedralImage = 3;
 const uint kLatitudeImage = 4;
 const uint kProjectedImage = 5;
+const uint kProfile = 6;
 
 struct PointLightRecord {
     float position[3];
@@ -107,7 +111,8 @@ struct PointLightRecord {
     float cone_end;           ///< scene::ConeFalloff::end
     float inverse_cone_width; ///< scene::inverse_width()
     float half_extent[2];
-    int texture_number; ///< -1 for none
+    int texture_number;        ///< -1 for none
+    uint first_luminaire_word; ///< of interface/profiles.h, kNoWords for none
 };
 
 struct DistantLightRecord {

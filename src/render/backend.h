@@ -58,6 +58,12 @@ public:
     /// The reason for which settings are not supported; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
 
+    /// What the backend does in another way than settings ask for, a sentence each. \param settings valid and supported
+    virtual std::vector<std::string> warnings(const scene::Scene& /*scene*/,
+                                              const RenderSettings& /*settings*/) const {
+        return {};
+    }
+
     /// The memory that layers take while the backend renders, beside that of the frame [bytes]. \param settings valid
     virtual std::size_t layer_sum_bytes(const scene::Scene& scene, const RenderSettings& settings) const = 0;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace nusselt::render_vulkan {
 
@@ -20,6 +21,15 @@ void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame
         std::copy_n(from.pixels.data() + 3 * first, 3 * static_cast<std::size_t>(tile.x_end - tile.x_begin),
                     frame.image.pixels.data() + 3 * first);
     }
+}
+
+/// Whether the CPU would sample lights whose radiance varies in proportion to it.
+bool asks_for_products(const render::RenderSettings& settings) {
+    using render::Technique;
+    return settings.emission_sampling == render::EmissionSampling::product &&
+           !samples_visible_normals(settings.strategies) &&
+           (settings.technique == Technique::projected_solid_angle ||
+            settings.technique == Technique::projected_solid_angle_biased);
 }
 
 class VulkanScene final : public render::PreparedScene {
@@ -55,6 +65,18 @@ VulkanBackend::VulkanBackend(const gpu::DeviceOptions& options, std::optional<Sh
 
 std::optional<std::string> VulkanBackend::why_unsupported(const render::RenderSettings& settings) const {
     return render_vulkan::why_unsupported(settings);
+}
+
+std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,
+                                                 const render::RenderSettings& settings) const {
+    if (!asks_for_products(settings)) return {};
+    const std::vector<scene::PolygonLight>& lights = scene.lights.of<scene::PolygonLight>();
+    const auto count =
+        std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.profile >= 0; });
+    if (count == 0) return {};
+    return {"lights with a profile or a spread (" + std::to_string(count) +
+            ") are sampled as with --emission-sampling " +
+            std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them"};
 }
 
 std::size_t VulkanBackend::layer_sum_bytes(const scene::Scene&, const render::RenderSettings&) const {

@@ -20,6 +20,7 @@ using render::Strategies;
 using render::Technique;
 using render_vulkan::ShadowRays;
 using render_vulkan::VulkanRenderer;
+using scene::Float3;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
@@ -78,7 +79,7 @@ TEST(LightsWithoutExtent, AllMatter) {
         return differing_share(render_on_cpu(other, settings), image);
     };
     const std::size_t points = scene.lights.of<scene::PointLight>().size();
-    ASSERT_EQ(points, 6u);
+    ASSERT_EQ(points, 7u);
     for (std::size_t i = 0; i < points; ++i)
         EXPECT_GT(share_with([&](scene::Scene& other) {
                       other.lights.of<scene::PointLight>()[i].intensity = {0, 0, 0};
@@ -88,6 +89,12 @@ TEST(LightsWithoutExtent, AllMatter) {
     EXPECT_GT(share_with([](scene::Scene& other) { other.lights.of<scene::DistantLight>().clear(); }),
               kLargestDifferingShare);
     using scene::PointDistribution;
+    // The other handedness of the horizontal angles of a luminaire.
+    EXPECT_GT(share_with([](scene::Scene& other) {
+                  Float3& axis = other.lights.of<scene::PointLight>().back().y_axis;
+                  axis = {-axis.x, -axis.y, -axis.z};
+              }),
+              kLargestDifferingShare);
     EXPECT_GT(share_with([](scene::Scene& other) {
                   for (scene::PointLight& light : other.lights.of<scene::PointLight>())
                       if (light.distribution == PointDistribution::quartic_cone)

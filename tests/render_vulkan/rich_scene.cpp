@@ -3,6 +3,8 @@
 #include "scenes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 
 namespace nusselt::render_vulkan_test {
@@ -150,6 +152,20 @@ scene::Scene make_plain_scene(int width, int height) {
     return scene;
 }
 
+std::shared_ptr<const scene::Luminaire> make_luminaire() {
+    scene::IntensityTable table;
+    constexpr int kVerticals = 13;
+    for (int i = 0; i < kVerticals; ++i)
+        table.vertical.push_back((i + 0.01 * (i % 3)) * 0.6 * std::numbers::pi / kVerticals);
+    table.horizontal = {0.3, 1, 2.5, 4, 6};
+    for (const double h : table.horizontal)
+        for (const double v : table.vertical)
+            table.candelas.push_back(100 * (1 + std::cos(h)) * std::pow(std::sin(3 * v + h), 2) +
+                                     50 * std::cos(0.5 * v));
+    return std::make_shared<const scene::Luminaire>(
+        scene::Luminaire{"lamp", "lamp", scene::IntensityProfile(table)});
+}
+
 scene::Scene make_scene_of_light_sources(int width, int height) {
     using scene::PointDistribution;
     scene::Scene scene = make_plain_scene(width, height);
@@ -180,6 +196,12 @@ scene::Scene make_scene_of_light_sources(int width, int height) {
         light.texture = distribution == PointDistribution::octahedral_image ? 1 : 0;
         add(light);
     }
+    scene::PointLight luminaire = lamp;
+    luminaire.position = {-0.8f, 0.6f, 2};
+    scene.luminaires.push_back(make_luminaire());
+    luminaire.profile = 0;
+    set_profile(*scene.luminaires[0], luminaire);
+    add(luminaire);
     add(scene::DistantLight{.direction = {0.48f, 0.64f, -0.6f}, .irradiance = {2, 1, 3}});
     return scene;
 }

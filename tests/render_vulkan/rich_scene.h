@@ -1,7 +1,10 @@
 #pragma once
 /// A scene with all that surfaces can have.
 
+#include "scene/model/profiles/luminaire.h"
 #include "scene/model/scene.h"
+
+#include <memory>
 
 namespace nusselt::render_vulkan_test {
 
@@ -15,6 +18,9 @@ scene::Scene make_opaque_scene(int width, int height);
 
 /// The opaque scene without textures and copies, for which drivers compile much faster.
 scene::Scene make_plain_scene(int width, int height);
+
+/// A luminaire without symmetry, whose half-planes are at uneven angles.
+std::shared_ptr<const scene::Luminaire> make_luminaire();
 
 /// The plain scene with a light of each kind without extent in place of its lights; images light it.
 scene::Scene make_scene_of_light_sources(int width, int height);

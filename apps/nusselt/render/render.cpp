@@ -226,7 +226,11 @@ int run_render(const RenderOptions& options) {
     apply_resolution(options.resolution, scene);
     Times times;
     times.load = stopwatch.seconds();
-    if (!options.quiet) print_warnings(options, settings, scene);
+    if (!options.quiet) {
+        print_warnings(options, settings, scene);
+        for (const std::string& warning : backend->warnings(scene, settings))
+            print_message("warning: {}\n", warning);
+    }
 
     const render::FrameSize size = render::frame_size(scene, settings);
     if (!options.quiet && size.layers > 0) print_layers(size, backend->layer_sum_bytes(scene, settings));

@@ -12,7 +12,7 @@ void add_direction(inout Reflected reflected, OneDirection light) {
 }
 
 void add_points(inout Reflected reflected) {
-    for (uint i = first_index(kPointKind); (kHasPoints || kHasPointImages) && i < end_index(kPointKind); ++i)
+    for (uint i = first_index(kPointKind); kHasAnyPoints && i < end_index(kPointKind); ++i)
         add_direction(reflected, local_point(reflected.surface, i));
 }
 

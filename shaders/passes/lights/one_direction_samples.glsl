@@ -15,7 +15,7 @@ void add_direction(inout Estimate estimate, OneDirection light) {
 }
 
 void add_points(inout Estimate estimate) {
-    for (uint i = first_index(kPointKind); (kHasPoints || kHasPointImages) && i < end_index(kPointKind); ++i)
+    for (uint i = first_index(kPointKind); kHasAnyPoints && i < end_index(kPointKind); ++i)
         add_direction(estimate, local_point(estimate.surface, i));
 }
 

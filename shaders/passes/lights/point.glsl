@@ -3,11 +3,14 @@
 /// Point lights as a shading point sees them, as in src/render_cpu/kernel/lights/point.cpp.
 
 #include "nusselt/core/trig.glsl"
+#include "passes/lights/luminaire.glsl"
 #include "passes/lights/one_direction.glsl"
 #include "passes/texture.glsl"
 
 layout(constant_id = kPointsConstant) const bool kHasPoints = true; ///< isotropic ones and cones
 layout(constant_id = kPointImagesConstant) const bool kHasPointImages = true;
+layout(constant_id = kPointProfilesConstant) const bool kHasPointProfiles = true;
+const bool kHasAnyPoints = kHasPoints || kHasPointImages || kHasPointProfiles;
 
 layout(set = 0, binding = kPointLightsBinding, std430) readonly buffer PointLights { PointLightRecord point_lights[]; };
 
@@ -58,6 +61,7 @@ vec3 point_share(PointLightRecord light, vec3 away) {
     vec3 w = vec3(dot(to_vec(light.x_axis), away), dot(to_vec(light.y_axis), away), dot(to_vec(light.z_axis), away));
     if (light.distribution == kSmoothCone || light.distribution == kQuarticCone)
         return vec3(cone_share(light, away - w.z * to_vec(light.z_axis), w.z));
+    if (kHasPointProfiles && light.distribution == kProfile) return vec3(intensity_in(light.first_luminaire_word, w));
     if (!kHasPointImages || light.distribution == kIsotropic) return vec3(1.0);
     if (light.distribution == kOctahedralImage) return light_texel(light, octahedral_place(w));
     if (light.distribution == kLatitudeImage) return light_texel(light, latitude_place(w));

@@ -13,9 +13,11 @@
 
 #include "nusselt/geometry/convex_polygon.glsl"
 #include "passes/lights/light_role.glsl"
+#include "passes/lights/polygon_profile.glsl"
 #include "passes/lights/polygon_texture.glsl"
 
 layout(constant_id = kPolygonsConstant) const bool kHasPolygons = true; ///< of uniform radiance
+const bool kHasAnyPolygons = kHasPolygons || kHasTexturedPolygons || kHasProfiledPolygons;
 
 layout(set = 0, binding = kPolygonLightsBinding, std430) readonly buffer PolygonLights { PolygonLightRecord polygon_lights[]; };
 /// For each polygonal light LIGHT_VERTICES vertices, then as many edges.
@@ -24,8 +26,10 @@ layout(set = 0, binding = kPolygonCornersBinding, std430) readonly buffer Polygo
 struct LocalPolygon {
     ConvexPolygon shape; ///< in shading space
     LightRole role;
-    int texture_number;  ///< -1 for uniform radiance
+    int texture_number;  ///< -1 for none
     TexturePlane plane;  ///< of the texture, in shading space
+    uint profile;        ///< its first word, kNoWords for none
+    ProfileAxes axes;    ///< of the profile, in shading space
 };
 
 vec3 polygon_corner(uint number) {
@@ -60,6 +64,9 @@ LocalPolygon local_polygon(Surface surface, uint index) {
     light.texture_number = polygon_lights[index].texture_number;
     if (kHasTexturedPolygons && light.texture_number >= 0)
         light.plane = to_shading_space(texture_plane(light.texture_number), surface.position, surface.shading);
+    light.profile = polygon_lights[index].first_profile_word;
+    if (kHasProfiledPolygons && light.profile != kNoWords)
+        light.axes = to_shading_space(profile_axes(light.profile), surface.shading);
     return light;
 }
 
@@ -70,7 +77,11 @@ vec3 polygon_emission(uint index, Ray ray) {
     if (!is_seen) return vec3(0.0);
     int texture_number = polygon_lights[index].texture_number;
     if (kHasTexturedPolygons && texture_number >= 0) return texture_radiance_along(texture_number, ray);
-    return to_vec(polygon_lights[index].radiance);
+    vec3 radiance = to_vec(polygon_lights[index].radiance);
+    uint profile = polygon_lights[index].first_profile_word;
+    if (kHasProfiledPolygons && profile != kNoWords)
+        radiance *= relative_radiance(profile, profile_axes(profile), -nusselt_normalize(ray.direction));
+    return radiance;
 }
 
 #endif

@@ -16,7 +16,7 @@ vec2 lobe_integrals(LocalPolygon light, Ltc lobe) {
 #endif
 
 void add_polygons(inout Reflected reflected) {
-    for (uint i = first_index(kPolygonKind); (kHasPolygons || kHasTexturedPolygons) && i < end_index(kPolygonKind); ++i) {
+    for (uint i = first_index(kPolygonKind); kHasAnyPolygons && i < end_index(kPolygonKind); ++i) {
         LocalPolygon light = local_polygon(reflected.surface, i);
         if (light.role.is_lit) add_polygon(reflected, light);
     }

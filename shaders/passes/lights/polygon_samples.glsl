@@ -105,8 +105,10 @@ vec2 techniques_integrals(PolygonTechniques self) {
                 kStrategies == kStrategiesDiffuseLtc ? polygon_ltc_measure(self.ltc) : 0.0);
 }
 
-/// Multiplies a sample by the radiance at its point over the mean.
+/// Multiplies a sample by the radiance at its point and in its direction over the mean.
 void modulate(LocalPolygon light, inout DirectLightSample s) {
+    if (kHasProfiledPolygons && light.profile != kNoWords)
+        s.shadowed = relative_radiance(light.profile, light.axes, -s.wi) * s.shadowed;
     if (!kHasTexturedPolygons || light.texture_number < 0) return;
     vec3 radiance = texture_radiance(light.texture_number, texture_plane_coordinates(light.plane, s.p));
     s.shadowed = (to_vec(polygon_textures[light.texture_number].inverse_mean) * radiance) * s.shadowed;
@@ -125,7 +127,7 @@ void modulate(LocalPolygon light, inout DirectLightSample s) {
 #endif
 
 void add_polygons(inout Estimate estimate) {
-    for (uint i = first_index(kPolygonKind); (kHasPolygons || kHasTexturedPolygons) && i < end_index(kPolygonKind); ++i)
+    for (uint i = first_index(kPolygonKind); kHasAnyPolygons && i < end_index(kPolygonKind); ++i)
         add_polygon(estimate, local_polygon(estimate.surface, i));
 }
 

@@ -2,12 +2,12 @@
 /// The luminaires of lights, prepared for kernels.
 
 #include "render_cpu/lights/luminaire_table.h"
+#include "scene/model/profiles/intensity_arrays.h"
 #include "scene/model/profiles/luminaire.h"
 
 #include <map>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace nusselt::render_cpu {
 
@@ -18,11 +18,7 @@ public:
     LuminaireTable add(const std::shared_ptr<const scene::Luminaire>& luminaire, double unit);
 
 private:
-    struct Arrays {
-        std::vector<float> vertical, horizontal, intensity;
-    };
-
-    std::map<std::pair<std::shared_ptr<const scene::Luminaire>, double>, Arrays> tables_;
+    std::map<std::pair<std::shared_ptr<const scene::Luminaire>, double>, scene::IntensityArrays> tables_;
 };
 
 } // namespace nusselt::render_cpu

@@ -17,6 +17,10 @@ inline constexpr int kShaderCells = 8;
 /// \throws std::runtime_error if 32 bits cannot number all words
 std::uint32_t grow_words(std::vector<std::uint32_t>& words, std::size_t count);
 
+/// Appends the bits of numbers. \returns the number of the first word
+/// \throws std::runtime_error as grow_words() does
+std::uint32_t add_floats(std::span<const float> numbers, std::vector<std::uint32_t>& words);
+
 /// Appends radiance, three words per texel. \returns the number of the first word
 /// \throws std::runtime_error as grow_words() does
 std::uint32_t add_texels(std::span<const Vec3<float>> texels, std::vector<std::uint32_t>& words);

@@ -1,6 +1,7 @@
 // Polygonal lights, for shaders/passes/lights/polygon.glsl.
 
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/lights/polygon_profiles.h"
 #include "render_vulkan/lights/polygon_textures.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
@@ -28,12 +29,16 @@ void add_polygon(const scene::PolygonLight& light, PolygonArrays& arrays) {
     for (const Vec3<float>& edge : polygon.edge) arrays.corners.push_back(scene::to_float3(edge));
     interface::PolygonLightRecord& record = arrays.lights.emplace_back();
     copy(scene::to_float3(polygon.normal), record.normal);
-    if (light.profile >= 0)
-        throw std::runtime_error(
-            "lights with a profile or a spread are not supported on GPUs; use --backend cpu");
     copy(light.radiance, record.radiance);
     record.is_two_sided = light.two_sided ? 1 : 0;
     record.texture_number = -1;
+    record.first_profile_word = interface::kNoWords;
+}
+
+/// The constant of the shape that a light is.
+int constant_of(const scene::PolygonLight& light) {
+    if (light.profile >= 0) return interface::kProfiledPolygonsConstant;
+    return light.texture < 0 ? interface::kPolygonsConstant : interface::kTexturedPolygonsConstant;
 }
 
 } // namespace
@@ -53,16 +58,18 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
     LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
-    emission.what = "images of lights and environments";
+    emission.what = "emission that varies";
+    PolygonProfiles profiles(emission.words);
     for (const scene::PolygonLight& light : lights) {
         if (are_small)
             add_polygon<4>(light, arrays);
         else
             add_polygon<8>(light, arrays);
-        records.has_shape_of(light.texture < 0 ? interface::kPolygonsConstant
-                                               : interface::kTexturedPolygonsConstant) = true;
+        records.has_shape_of(constant_of(light)) = true;
+        interface::PolygonLightRecord& record = arrays.lights.back();
+        if (light.profile >= 0) record.first_profile_word = profiles.add(scene, light);
         if (light.texture < 0) continue;
-        arrays.lights.back().texture_number = static_cast<std::int32_t>(arrays.textures.size());
+        record.texture_number = static_cast<std::int32_t>(arrays.textures.size());
         arrays.textures.push_back(add_texture(scene, light, records.polygon_slots, emission.words));
     }
     records.array_at(interface::kPolygonLightsBinding) = make_light_array("polygonal lights", arrays.lights);

@@ -1,0 +1,54 @@
+#include "render_vulkan/lights/polygon_profiles.h"
+
+#include "interface/profiles.h"
+#include "render_vulkan/lights/emission_words.h"
+#include "scene/model/profiles/emission_profile.h"
+#include "scene/model/vector_math.h"
+
+#include <bit>
+#include <iterator>
+#include <optional>
+
+namespace nusselt::render_vulkan {
+
+std::uint32_t PolygonProfiles::add(const scene::Scene& scene, const scene::PolygonLight& light) {
+    const scene::ProfiledEmission& emission =
+        scene.emission_profiles.at(static_cast<std::size_t>(light.profile));
+    const scene::EmissionProfile& profile = *emission.profile;
+    const std::optional<double> slope = scene::spread_slope(profile);
+    // With areas relative to the least one and intensities over this, all numbers are of the order of the luminance.
+    const double unit = profile.luminaire != nullptr ? scene::least_visible_area(profile) : 1;
+    const std::uint32_t luminaire =
+        profile.luminaire != nullptr ? luminaires_.add(profile.luminaire, unit, words_) : interface::kNoWords;
+
+    const std::uint32_t first = grow_words(words_, interface::kProfileFaces);
+    const auto set = [&](std::uint32_t at, float number) {
+        words_[first + at] = std::bit_cast<std::uint32_t>(number);
+    };
+    const scene::ProfilePlacement placement = scene::place_profile(light, emission);
+    std::uint32_t at = interface::kProfileAxes;
+    const scene::Axes frame{placement.x_axis, placement.y_axis, placement.z_axis};
+    const scene::Axes face = scene::Axes::of(
+        frame.to_world(scene::honeycomb_direction(frame.to_local(placement.normal))), placement.normal);
+    for (const scene::Double3& axis :
+         {placement.x_axis, placement.y_axis, placement.z_axis, placement.normal, face.x}) {
+        const scene::Float3 rounded = to_float(axis);
+        for (const float component : {rounded.x, rounded.y, rounded.z}) set(at++, component);
+    }
+    set(interface::kProfileInverseSlope, slope ? static_cast<float>(1 / *slope) : 0.0f);
+    const auto holes = scene::honeycomb_slopes(profile);
+    for (std::uint32_t k = 0; k < 2; ++k)
+        set(interface::kProfileInverseHoles + k, holes ? static_cast<float>(1 / (*holes)[k]) : 0.0f);
+    set(interface::kProfileInverseMean, emission.mean > 0 ? 1 / emission.mean : 0.0f);
+    words_[first + interface::kProfileLuminaire] = luminaire;
+    words_[first + interface::kProfileFaceCount] = static_cast<std::uint32_t>(profile.faces.size());
+    for (const scene::LuminousFace& face : profile.faces) {
+        const scene::Float3 normal = to_float(face.normal);
+        const float numbers[] = {normal.x, normal.y, normal.z, static_cast<float>(face.area / unit)};
+        static_assert(std::size(numbers) == interface::kProfileFaceWords);
+        add_floats(numbers, words_);
+    }
+    return first;
+}
+
+} // namespace nusselt::render_vulkan
