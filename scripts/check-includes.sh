@@ -23,8 +23,8 @@ BEGIN {
     allow("include/related", below " include/sampling include/line_samples")
     below = below " include/sampling include/line_samples include/related"
     allow("include/emission", "include/core include/geometry include/ltc include/sampling include/simd")
-    allow("include/line_emission", "include/core include/emission include/geometry include/ltc include/sampling") # shaders only
-    below = below " include/emission"
+    allow("include/line_emission", "include/core include/emission include/geometry include/ltc include/sampling")
+    below = below " include/emission include/line_emission"
     allow("include/estimate", below)
     allow("include/all", below " include/estimate")
 

@@ -23,10 +23,10 @@
 
 // All techniques, by scripts/check-techniques.py.
 #include <nusselt/emission/environment_sampling.h>
-#include <nusselt/emission/textured_line.h>
 #include <nusselt/emission/textured_polygon.h>
-#include <nusselt/emission/textured_tube.h>
 #include <nusselt/emission/windowed_polygon.h>
+#include <nusselt/line_emission/textured_line.h>
+#include <nusselt/line_emission/textured_tube.h>
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>

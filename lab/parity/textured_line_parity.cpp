@@ -4,9 +4,9 @@
 #include "lab/parity/emission_parity.h"
 #include "proof/hostile/lights.h"
 
-#include <nusselt/emission/line_profile_words.h>
-#include <nusselt/emission/textured_line.h>
-#include <nusselt/emission/textured_tube.h>
+#include <nusselt/line_emission/line_profile_words.h>
+#include <nusselt/line_emission/textured_line.h>
+#include <nusselt/line_emission/textured_tube.h>
 
 namespace nusselt::parity {
 

@@ -10,7 +10,7 @@
 
 namespace nusselt::parity {
 
-/// The techniques of nusselt/emission/textured_line.h and textured_tube.h for shaders.
+/// The techniques of nusselt/line_emission/textured_line.h and textured_tube.h for shaders.
 enum class TexturedLineTechnique { line, line_on_lobe, tube, tube_on_lobe };
 
 /// Judges shaders of one technique on all classes of lights, with about `count` lights in total.

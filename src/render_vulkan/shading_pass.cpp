@@ -28,7 +28,7 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
 }
 
 /// Whether images of polygons decide where samples are, or are integrated: see
-/// shaders/passes/lights/polygon_cell_samples.glsl. Shaders for environments are the same.
+/// shaders/passes/cells/polygon_cell_samples.glsl. Shaders for environments are the same.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
     if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
         constants[interface::kMappedEnvironmentsConstant] != 0)

@@ -14,8 +14,7 @@ namespace {
 class TexturedLineMutants : public GpuTest {
 protected:
     /// No more lights than the quick effort draws.
-    std::vector<std::string> excesses_of(TexturedLineTechnique technique,
-                                         const VariantShader& shader) const {
+    std::vector<std::string> excesses_of(TexturedLineTechnique technique, const VariantShader& shader) const {
         return judge_textured_lines(device(), technique, {shader}, 8'000).front().excesses;
     }
 };

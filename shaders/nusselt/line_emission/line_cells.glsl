@@ -1,8 +1,8 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
-// Follows include/nusselt/emission/textured_line.h @ 781e8b8bb78a
+// Follows include/nusselt/line_emission/textured_line.h @ d7c608849ffc
 /// What TexturedLine and TexturedLineLtc share: they choose a cell in proportion to the mean of radiance at both ends times the
-/// closed form of its measure, and a point in the cell by a linear density. Twin of include/nusselt/emission/textured_line.h.
+/// closed form of its measure, and a point in the cell by a linear density. Twin of include/nusselt/line_emission/textured_line.h.
 
 #include "../core/light_sample.glsl"
 #include "../line_emission/line_profile.glsl"

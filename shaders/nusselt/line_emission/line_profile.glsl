@@ -1,9 +1,9 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
-// Follows include/nusselt/emission/line_profile.h @ f7f1111427b5
-// Follows include/nusselt/emission/line_profile_words.h @ 57b7d6d8516e
+// Follows include/nusselt/line_emission/line_profile.h @ f7f1111427b5
+// Follows include/nusselt/line_emission/line_profile_words.h @ 57b7d6d8516e
 /// Radiance that varies along linear lights and tubes, from the words that LineProfileWords of C++ writes once per light. Twin of
-/// include/nusselt/emission/line_profile.h and line_profile_words.h.
+/// include/nusselt/line_emission/line_profile.h and line_profile_words.h.
 ///
 /// The words are in a buffer or an integer texture of the program, any number of profiles one after another. The program says
 /// how to fetch them: it defines the function line_profile_word(), before or after the #include. For instance:

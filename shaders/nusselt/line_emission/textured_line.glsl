@@ -1,8 +1,8 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_LINE_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_LINE_GLSL
-// Follows include/nusselt/emission/textured_line.h @ 781e8b8bb78a
+// Follows include/nusselt/line_emission/textured_line.h @ d7c608849ffc
 /// Sampling of linear lights whose radiance varies along them, in proportion to radiance times the cosine at the surface. Twin of
-/// TexturedLine in include/nusselt/emission/textured_line.h, for profiles of up to 64 texels.
+/// TexturedLine in include/nusselt/line_emission/textured_line.h, for profiles of up to 64 texels.
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr].
 /// Space: shading space; the shading point is the origin, the normal +z.

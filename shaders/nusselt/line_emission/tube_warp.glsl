@@ -1,9 +1,9 @@
 #ifndef NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
 #define NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
-// Follows include/nusselt/emission/textured_tube.h @ 6ca2b21de06f
+// Follows include/nusselt/line_emission/textured_tube.h @ 6ca2b21de06f
 // Follows include/nusselt/sampling/piecewise_linear.h @ 4bf771354ecf
 /// What TexturedTube and TexturedTubeLtc share: a piecewise linear density of the second random number, in proportion to the
-/// radiance of the places that it leads to. Twin of a part of include/nusselt/emission/textured_tube.h.
+/// radiance of the places that it leads to. Twin of a part of include/nusselt/line_emission/textured_tube.h.
 
 #include "../line_emission/line_profile.glsl"
 #include "../sampling/cylinder_fan.glsl"

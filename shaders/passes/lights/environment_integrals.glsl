@@ -4,7 +4,7 @@
 /// radiance; all of a lobe counts, as if it were above the horizon.
 
 #if EMISSION_CELLS
-#include "passes/lights/environment_cells.glsl"
+#include "passes/cells/environment_cells.glsl"
 
 void add_environments(inout Reflected reflected) {
     bool is_glossy = glossy_surface_is_glossy(reflected.glossy);

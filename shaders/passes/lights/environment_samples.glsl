@@ -3,7 +3,7 @@
 /// Samples of environments, in the shaders that scenes with environments have.
 
 #if EMISSION_CELLS
-#include "passes/lights/environment_cell_samples.glsl"
+#include "passes/cells/environment_cell_samples.glsl"
 #else
 void add_environments(inout Estimate estimate) {}
 #endif

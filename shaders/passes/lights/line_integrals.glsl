@@ -29,7 +29,7 @@ void add_uniform_line(inout Reflected reflected, LocalLine light) {
 }
 
 #if LINE_CELLS
-#include "passes/lights/line_cell_integrals.glsl"
+#include "passes/cells/line_cell_integrals.glsl"
 #else
 void add_line(inout Reflected reflected, LocalLine light) { add_uniform_line(reflected, light); }
 #endif

@@ -132,7 +132,7 @@ void add_by_measure(inout Estimate estimate, LocalLine light, bool has_lines, bo
 }
 
 #if LINE_CELLS
-#include "passes/lights/line_cell_samples.glsl"
+#include "passes/cells/line_cell_samples.glsl"
 #else
 void add_line(inout Estimate estimate, LocalLine light) {
     add_by_measure(estimate, light, kHasAnyLines, kHasAnyTubes);

@@ -10,7 +10,7 @@ vec2 lobe_integrals(LocalPolygon light, Ltc lobe) {
 }
 
 #if EMISSION_CELLS
-#include "passes/lights/polygon_cell_integrals.glsl"
+#include "passes/cells/polygon_cell_integrals.glsl"
 #else
 #include "passes/lights/polygon_uniform_integrals.glsl"
 #endif

@@ -121,7 +121,7 @@ void modulate(LocalPolygon light, inout DirectLightSample s) {
 #undef TECHNIQUES
 
 #if EMISSION_CELLS
-#include "passes/lights/polygon_cell_samples.glsl"
+#include "passes/cells/polygon_cell_samples.glsl"
 #else
 #include "passes/lights/polygon_measure_samples.glsl"
 #endif

@@ -7,8 +7,8 @@
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
 
-#include <nusselt/emission/textured_line.h>
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/line_emission/textured_line.h>
 
 #include <algorithm>
 #include <cstddef>

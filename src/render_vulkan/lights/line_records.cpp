@@ -6,8 +6,8 @@
 #include "scene/model/library_vector.h"
 #include "scene/model/vector_math.h"
 
-#include <nusselt/emission/line_profile_words.h>
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/line_emission/line_profile_words.h>
 
 #include <cstddef>
 #include <vector>

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <nusselt/emission/line_nodes.h>
-#include <nusselt/emission/textured_line.h>
+#include <nusselt/line_emission/line_nodes.h>
+#include <nusselt/line_emission/textured_line.h>
 
 namespace nusselt_test {
 namespace {

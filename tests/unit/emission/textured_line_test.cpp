@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <nusselt/emission/textured_line.h>
+#include <nusselt/line_emission/textured_line.h>
 
 #include "emission/textured_lines.h"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include <nusselt/emission/line_profile.h>
+#include <nusselt/line_emission/line_profile.h>
 #include <nusselt/ltc/ltc.h>
 
 #include "ltc/lobes.h"

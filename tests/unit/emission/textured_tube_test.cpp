@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <nusselt/emission/textured_tube.h>
+#include <nusselt/line_emission/textured_tube.h>
 
 #include "emission/textured_lines.h"
 

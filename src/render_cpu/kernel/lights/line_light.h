@@ -8,9 +8,9 @@
 #include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/line_records.h"
 
-#include <nusselt/emission/textured_line.h>
 #include <nusselt/geometry/cylinder_caps.h>
 #include <nusselt/geometry/strip.h>
+#include <nusselt/line_emission/textured_line.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>

@@ -5,7 +5,7 @@
 #include "render_cpu/kernel/lights/tube_integrals.h"
 #include "render_cpu/kernel/point_samples.h"
 
-#include <nusselt/emission/line_nodes.h>
+#include <nusselt/line_emission/line_nodes.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {

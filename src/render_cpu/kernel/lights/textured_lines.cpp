@@ -4,7 +4,7 @@
 #include "render_cpu/kernel/lights/line_light.h"
 #include "render_cpu/kernel/lights/tube_integrals.h"
 
-#include <nusselt/emission/textured_tube.h>
+#include <nusselt/line_emission/textured_tube.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {

@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_CELL_SAMPLES_GLSL
-#define NUSSELT_PASSES_LIGHTS_POLYGON_CELL_SAMPLES_GLSL
+#ifndef NUSSELT_PASSES_CELLS_POLYGON_CELL_SAMPLES_GLSL
+#define NUSSELT_PASSES_CELLS_POLYGON_CELL_SAMPLES_GLSL
 /// Samples of polygonal lights in proportion to their image times a measure.
 
-#include "passes/lights/polygon_cells.glsl"
+#include "passes/cells/polygon_cells.glsl"
 #include "passes/lights/techniques.glsl"
 
 /// Whether images decide where samples are; otherwise, polygons are sampled as if they were uniform.
@@ -72,7 +72,7 @@ vec3 cells_radiance(PolygonCells cells, vec2 at) { return texture_radiance(cells
 vec3 cells_point(PolygonCells cells, TexturedSample s) { return s.p; }
 
 #define CELLS PolygonCells
-#include "passes/lights/add_cells.glsl"
+#include "passes/cells/add_cells.glsl"
 #undef CELLS
 
 void add_polygon(inout Estimate estimate, LocalPolygon light) {

@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_LINE_CELL_INTEGRALS_GLSL
-#define NUSSELT_PASSES_LIGHTS_LINE_CELL_INTEGRALS_GLSL
+#ifndef NUSSELT_PASSES_CELLS_LINE_CELL_INTEGRALS_GLSL
+#define NUSSELT_PASSES_CELLS_LINE_CELL_INTEGRALS_GLSL
 /// Integrals over lines and tubes whose radiance varies along them: all of each cell has its mean radiance.
 
-#include "passes/lights/line_cells.glsl"
+#include "passes/cells/line_cells.glsl"
 
 /// The light of a tube without a profile, times the mean of radiance that its cells and the cap that is seen have.
 /// \param by_cells what cells of its axis reflect, per radius

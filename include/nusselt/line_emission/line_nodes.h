@@ -2,8 +2,8 @@
 /// Radiance of a linear light that depends on the direction, as one shading point sees it along the light: for TexturedLine.
 
 #include <nusselt/core/trig.h>
-#include <nusselt/emission/line_profile.h>
 #include <nusselt/geometry/line_segment.h>
+#include <nusselt/line_emission/line_profile.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -1,11 +1,11 @@
-#ifndef NUSSELT_PASSES_LIGHTS_LINE_CELL_SAMPLES_GLSL
-#define NUSSELT_PASSES_LIGHTS_LINE_CELL_SAMPLES_GLSL
+#ifndef NUSSELT_PASSES_CELLS_LINE_CELL_SAMPLES_GLSL
+#define NUSSELT_PASSES_CELLS_LINE_CELL_SAMPLES_GLSL
 /// Samples of lines and tubes in proportion to their radiance times a measure, as in
 /// src/render_cpu/kernel/lights/textured_lines.cpp.
 
 #include "nusselt/line_emission/textured_tube.glsl"
 #include "nusselt/line_emission/textured_tube_ltc.glsl"
-#include "passes/lights/line_cells.glsl"
+#include "passes/cells/line_cells.glsl"
 
 /// Whether the radiance along lights decides where samples are. Other strategies than the one with lobes take a single technique:
 /// lines and tubes have no samples of the BRDF.
@@ -47,7 +47,7 @@ vec3 cells_radiance(LineLightCells cells, vec2 at) {
 vec3 cells_point(LineLightCells cells, TexturedSample s) { return s.p; }
 
 #define CELLS LineLightCells
-#include "passes/lights/add_cells.glsl"
+#include "passes/cells/add_cells.glsl"
 #undef CELLS
 
 /// A tube whose radiance varies along it, for techniques that know its profile.

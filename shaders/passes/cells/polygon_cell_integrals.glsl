@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_CELL_INTEGRALS_GLSL
-#define NUSSELT_PASSES_LIGHTS_POLYGON_CELL_INTEGRALS_GLSL
+#ifndef NUSSELT_PASSES_CELLS_POLYGON_CELL_INTEGRALS_GLSL
+#define NUSSELT_PASSES_CELLS_POLYGON_CELL_INTEGRALS_GLSL
 /// Integrals over polygonal lights, some of which emit an image: all of each cell has its mean radiance.
 
-#include "passes/lights/polygon_cells.glsl"
+#include "passes/cells/polygon_cells.glsl"
 
 void add_polygon(inout Reflected reflected, LocalPolygon light) {
     if (light.texture_number < 0) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include <nusselt/emission/line_profile.h>
+#include <nusselt/line_emission/line_profile.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

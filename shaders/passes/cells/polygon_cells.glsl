@@ -1,5 +1,5 @@
-#ifndef NUSSELT_PASSES_LIGHTS_POLYGON_CELLS_GLSL
-#define NUSSELT_PASSES_LIGHTS_POLYGON_CELLS_GLSL
+#ifndef NUSSELT_PASSES_CELLS_POLYGON_CELLS_GLSL
+#define NUSSELT_PASSES_CELLS_POLYGON_CELLS_GLSL
 /// The techniques for radiance times a measure, of polygonal lights that emit an image.
 
 #include "nusselt/emission/textured_polygon.glsl"

@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_ENVIRONMENT_CELL_SAMPLES_GLSL
-#define NUSSELT_PASSES_LIGHTS_ENVIRONMENT_CELL_SAMPLES_GLSL
+#ifndef NUSSELT_PASSES_CELLS_ENVIRONMENT_CELL_SAMPLES_GLSL
+#define NUSSELT_PASSES_CELLS_ENVIRONMENT_CELL_SAMPLES_GLSL
 /// Samples of environments. There is one way for all settings: radiance times a measure.
 
-#include "passes/lights/environment_cells.glsl"
+#include "passes/cells/environment_cells.glsl"
 #include "passes/lights/techniques.glsl"
 
 vec3 sample_cosine(vec2 u) {
@@ -82,7 +82,7 @@ vec3 cells_radiance(Sky sky, vec2 at) { return has_map(sky) ? environment_map_lo
 vec3 cells_point(Sky sky, TexturedSample s) { return (4.0 * scene.radius) * s.wi; }
 
 #define CELLS Sky
-#include "passes/lights/add_cells.glsl"
+#include "passes/cells/add_cells.glsl"
 #undef CELLS
 
 void add_environments(inout Estimate estimate) {

@@ -11,7 +11,7 @@
 #include <nusselt/core/light_sample.h>
 #include <nusselt/emission/cell_lanes.h>
 #include <nusselt/emission/lane_index.h>
-#include <nusselt/emission/line_profile.h>
+#include <nusselt/line_emission/line_profile.h>
 #include <nusselt/sampling/line_ltc.h>
 #include <nusselt/sampling/line_projected_solid_angle.h>
 
@@ -64,7 +64,7 @@ struct LobeLines {
 /// \tparam Real    float, double, long double, or a pack with a shading point and its view of the light per lane.
 /// \tparam n       as in LineProfile.
 /// \tparam Measure ProjectedLines or LobeLines.
-/// \tparam Along   LineProfile, or LineNodes for radiance that depends on the direction (emission/line_nodes.h).
+/// \tparam Along   LineProfile, or LineNodes for radiance that depends on the direction (line_emission/line_nodes.h).
 ///
 /// Measure: pdf is the density of wi in solid angle times the radius of the cylinder that tends to 0 [m/sr], as that of
 /// LineProjectedSolidAngle.

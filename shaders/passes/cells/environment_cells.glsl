@@ -1,5 +1,5 @@
-#ifndef NUSSELT_PASSES_LIGHTS_ENVIRONMENT_CELLS_GLSL
-#define NUSSELT_PASSES_LIGHTS_ENVIRONMENT_CELLS_GLSL
+#ifndef NUSSELT_PASSES_CELLS_ENVIRONMENT_CELLS_GLSL
+#define NUSSELT_PASSES_CELLS_ENVIRONMENT_CELLS_GLSL
 /// The techniques for environments: radiance of the map times a measure, or the measure alone where radiance is the same
 /// everywhere. Descents to texels, which EnvironmentCosine and EnvironmentLtc share, are compiled once, but indices of arrays of
 /// sums are constant: drivers would copy these arrays otherwise.

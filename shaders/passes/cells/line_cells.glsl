@@ -1,5 +1,5 @@
-#ifndef NUSSELT_PASSES_LIGHTS_LINE_CELLS_GLSL
-#define NUSSELT_PASSES_LIGHTS_LINE_CELLS_GLSL
+#ifndef NUSSELT_PASSES_CELLS_LINE_CELLS_GLSL
+#define NUSSELT_PASSES_CELLS_LINE_CELLS_GLSL
 /// The techniques for radiance times a measure, of lights whose radiance varies along a line.
 
 #include "nusselt/line_emission/textured_line.glsl"

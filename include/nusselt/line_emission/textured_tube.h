@@ -6,8 +6,8 @@
 /// second random number, and hardly with the first one. It is warped by a piecewise linear density, in proportion to the
 /// radiance of the places that it leads to. docs/techniques/textured_line.md has more.
 
-#include <nusselt/emission/line_profile.h>
 #include <nusselt/geometry/cylinder.h>
+#include <nusselt/line_emission/line_profile.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
 #include <nusselt/sampling/piecewise_linear.h>
