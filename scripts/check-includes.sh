@@ -65,7 +65,7 @@ BEGIN {
     allow("apps/viewer", below " src/scene/colour")
     # The product links nothing of the laboratory.
     allow("apps/nusselt", below " apps/common apps/viewer")
-    allow("lab", below " proof")
+    allow("lab", below " proof src/interface")
     allow("apps/nusselt-lab", below " proof lab src/fit apps/common")
 
     allow("shaders/interface", "shaders/nusselt")

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_PROFILE_GLSL
 // Follows include/nusselt/line_emission/line_profile.h @ f7f1111427b5
-// Follows include/nusselt/line_emission/line_profile_words.h @ 57b7d6d8516e
+// Follows include/nusselt/line_emission/line_profile_words.h @ 67f720faaf8c
 /// Radiance that varies along linear lights and tubes, from the words that LineProfileWords of C++ writes once per light. Twin of
 /// include/nusselt/line_emission/line_profile.h and line_profile_words.h.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_TUBE_LTC_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_TUBE_LTC_GLSL
-// Follows include/nusselt/line_emission/textured_tube.h @ 6ca2b21de06f
+// Follows include/nusselt/line_emission/textured_tube.h @ 5182c18c9400
 /// Sampling of tubes of finite radius whose radiance varies along them, nearly in proportion to radiance times a glossy lobe. Twin
 /// of TexturedTubeLtc in include/nusselt/line_emission/textured_tube.h.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
 #define NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
-// Follows include/nusselt/line_emission/textured_tube.h @ 6ca2b21de06f
+// Follows include/nusselt/line_emission/textured_tube.h @ 5182c18c9400
 // Follows include/nusselt/sampling/piecewise_linear.h @ 4bf771354ecf
 /// What TexturedTube and TexturedTubeLtc share: a piecewise linear density of the second random number, in proportion to the
 /// radiance of the places that it leads to. Twin of a part of include/nusselt/line_emission/textured_tube.h.
