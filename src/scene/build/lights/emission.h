@@ -19,9 +19,9 @@ struct Emission {
     /// brightness of the texture.
     std::optional<double> power = {};
     std::shared_ptr<const EmissionTexture> texture = {}; ///< null for uniform radiance
-    /// How the radiance depends on the direction; not together with a texture. With a luminaire and without `power`, `radiance`
-    /// is a factor of what was measured, for each channel.
-    ProfileRequest profile = {};
+    /// How the radiance depends on the direction, null if it does not; not together with a texture. With a luminaire and
+    /// without `power`, `radiance` is a factor of what was measured, for each channel. Most emissions have none.
+    std::shared_ptr<const ProfileRequest> profile = {};
 };
 
 /// Throws SceneError at `location` unless all channels of an emission are from 0 to kMaxRadiance.

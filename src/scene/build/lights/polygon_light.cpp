@@ -48,7 +48,7 @@ void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& word
 void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
     orient_by_shading_normals(built);
     PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
-    if (has_effect(shape.emission.profile))
+    if (shape.emission.profile != nullptr)
         add_profiled_polygons(shape, words, std::move(partition), built);
     else if (shape.emission.texture != nullptr && !built.uvs.empty())
         add_textured_polygons(shape, words, std::move(partition), built);

@@ -71,8 +71,8 @@ void warn_of_lost_flux(const ShapeDescription& shape, const EmissionProfile& pro
 Emission without_profile(const Emission& emission) {
     Emission result = emission;
     result.profile = {};
-    if (emission.profile.luminaire != nullptr && !emission.power)
-        result.power = emission.profile.luminaire->profile.flux() / kLumensPerWatt;
+    if (emission.profile != nullptr && emission.profile->luminaire != nullptr && !emission.power)
+        result.power = emission.profile->luminaire->profile.flux() / kLumensPerWatt;
     return result;
 }
 
@@ -83,7 +83,7 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
         lights.push_back({0, -1, std::move(polygon), {}, shape.emission.two_sided});
     const Float3& first = built.positions[built.triangles.front().vertex[0]];
     std::optional<ProfiledShape> profiled =
-        profile_shape(lights, edge_from(lights.front(), first), shape.emission.profile);
+        profile_shape(lights, edge_from(lights.front(), first), *shape.emission.profile);
     built.triangle_light = std::move(partition.polygon_of_triangle);
     if (profiled) {
         const std::vector<Float3> radiance =
@@ -108,7 +108,7 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
 
 void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built) {
-    ProfiledShape profiled = profile_line(light, shape.emission.profile);
+    ProfiledShape profiled = profile_line(light, *shape.emission.profile);
     Emission outwards = shape.emission;
     outwards.two_sided = false;
     light.radiance = radiances(outwards, shape.origin, words.emission, std::vector{light}, profiled).front();

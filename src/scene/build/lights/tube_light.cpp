@@ -106,7 +106,8 @@ BuiltShape build_tube(const PlacedShape& placed, const FormatWords& words) {
         built.warnings.add(shape.origin, subject_of(shape) + ": skipped because it does not emit light");
         return built;
     }
-    ProfileRequest profile = shape.emission.profile;
+    ProfileRequest profile;
+    if (shape.emission.profile != nullptr) profile = *shape.emission.profile;
     if (std::exchange(profile.honeycomb, {}) != HoneycombAngles{})
         built.warnings.add(shape.origin, "honeycombs of tubes",
                            subject_of(shape) + ": tubes have no honeycomb; it has no effect");

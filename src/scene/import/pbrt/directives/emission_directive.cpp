@@ -26,7 +26,7 @@ void read_profile(ParameterList& parameters, const std::filesystem::path& path, 
             fail(parameter, std::string(parameter) + " must be from " + to_text(kNarrowestSpread) + " to " +
                                 to_text(kWidestSpread) + " degrees, found " + to_text(angle));
     };
-    ProfileRequest& profile = emission.profile;
+    ProfileRequest profile;
     profile.spread = parameters.real("spread", kWidestSpread);
     check_angle("spread", profile.spread);
     if (const std::vector<double> angles = parameters.reals("honeycomb"); !angles.empty()) {
@@ -52,9 +52,11 @@ void read_profile(ParameterList& parameters, const std::filesystem::path& path, 
             emission.radiance =
                 to_float((parameters.real("scale", 1) / brightness) * to_double(emission.radiance));
     }
-    if (has_effect(profile) && emission.texture != nullptr)
+    if (!has_effect(profile)) return;
+    if (emission.texture != nullptr)
         fail("filename",
              "an image and \"ies\", \"spread\" or \"honeycomb\" do not work together; keep one of them");
+    emission.profile = std::make_shared<const ProfileRequest>(std::move(profile));
 }
 
 } // namespace
