@@ -13,7 +13,7 @@ namespace nusselt::interface {
 using uint = std::uint32_t;
 #endif
 
-/// In place of the number of an emission word: there are none.
+/// Stands for the number of a first word where there are no words.
 const uint kNoWords = 0xffffffffu;
 
 // Kinds are numbered from 0 without gaps.

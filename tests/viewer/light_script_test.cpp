@@ -55,7 +55,7 @@ TEST_F(LightScriptTest, ChangesLightsInAllWays) {
     for (const float value : viewer.session.image(Side::left).pixels) EXPECT_EQ(value, 0);
 }
 
-/// Without a frame: drivers take long to compile shaders for images, and there are none for profiles and maps yet.
+/// Without a frame: drivers take long to compile shaders for images and maps.
 TEST_F(LightScriptTest, ExchangesFilesAndUndoesIt) {
     Viewer viewer = make_viewer();
     const std::filesystem::path folder =

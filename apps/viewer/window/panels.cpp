@@ -316,7 +316,10 @@ bool Panels::draw_light_files(Viewer& viewer, const std::function<void(bool)>& n
     const bool is_spread =
         slider("spread", spread, 1, scene::kWidestSpread, "%.0f deg",
                "The angle of the cone that contains all light of a point. The power stays.");
-    if (is_spread) edit_.profile.spread = spread;
+    if (is_spread) {
+        edit_.profile.spread = spread;
+        edit_.profile.honeycomb.reset(); // they do not work together
+    }
     note(is_spread);
     note(drag("turn map", edit_.map_turn, 0.5, "%.1f deg",
               "A rotation of the map of an environment, as `turn`. Its portal stays in its place."));

@@ -9,7 +9,9 @@
 #include <nusselt/geometry/line_segment.h>
 #include <nusselt/line_emission/line_profile_words.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 namespace nusselt::render_vulkan {
