@@ -140,7 +140,7 @@ bool fits(Place place, const Ends& ends, double radius) {
     case Place::crossing:
         return low < -0.05 && high > 0.05;
     case Place::below:
-        return high < 0;
+        return high < 0 && high > -0.1; // lobes without a horizon reach some
     default:
         return high > 0.02;
     }
