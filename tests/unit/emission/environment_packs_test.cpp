@@ -113,10 +113,10 @@ TYPED_TEST(EnvironmentPacks, DoWhatScalarsDo) {
         }
     }
     EXPECT_GT(lit, 500);
-    weights.expect_agreement();
-    samples.expect_agreement();
-    densities.expect_agreement();
-    inverses.expect_agreement();
+    weights.expect_agreement(3000, 500);
+    samples.expect_agreement(3000, 500);
+    densities.expect_agreement(3000, 500);
+    inverses.expect_agreement(3000, 500);
 }
 
 /// Maps without light, and lanes whose frames are not numbers.

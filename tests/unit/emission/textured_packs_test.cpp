@@ -149,10 +149,10 @@ TYPED_TEST(TexturedPacks, DoWhatScalarsDo) {
         }
     }
     EXPECT_GT(lit, 500);
-    weights.expect_agreement();
-    samples.expect_agreement();
-    densities.expect_agreement();
-    inverses.expect_agreement();
+    weights.expect_agreement(3000, 500);
+    samples.expect_agreement(3000, 500);
+    densities.expect_agreement(3000, 500);
+    inverses.expect_agreement(3000, 500);
 }
 
 } // namespace
