@@ -85,6 +85,27 @@ inline double far_field_error(const scene::Scene& scene, const scene::test::Inte
     return far_field_error(scene.camera, render_floor(scene), intensity, peak);
 }
 
+/// The error of a floor, and whether that of wrong tables is too large to pass.
+struct FarField {
+    static constexpr double kLimit = 0.01;
+    double error;
+    bool rejects_mirrored; ///< the other handedness of horizontal angles
+    bool rejects_bright;   ///< a table that is brighter by 3 %
+};
+inline FarField far_field_of(const scene::Camera& camera, const image::Image& floor,
+                             const scene::IntensityProfile& table) {
+    const auto error = [&](const scene::test::Intensity& intensity) {
+        return far_field_error(camera, floor, intensity, table.peak().candelas);
+    };
+    return {
+        error([&](const Double3& w) { return table.intensity(w); }),
+        error([&](const Double3& w) {
+            return table.intensity({w.x, -w.y, w.z});
+        }) >= FarField::kLimit,
+        error([&](const Double3& w) { return 1.03 * table.intensity(w); }) >= FarField::kLimit,
+    };
+}
+
 inline const scene::IntensityProfile& table_of(const scene::Scene& scene) {
     return scene.emission_profiles.at(0).profile->luminaire->profile;
 }
