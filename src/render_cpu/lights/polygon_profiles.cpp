@@ -217,10 +217,7 @@ std::int32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polygo
             to_float(v.x * placement.x_axis + v.y * placement.y_axis + v.z * placement.z_axis));
     };
     if (const auto holes = scene::honeycomb_slopes(profile)) {
-        const Double3 normal = to_profile(placement.normal);
-        const Double3 direction = scene::honeycomb_direction(normal);
-        record.hole_axis =
-            scene::to_float3(to_world(normalized(direction - dot(direction, normal) * normal)));
+        record.hole_axis = to_float(scene::honeycomb_axis(placement));
         record.inverse_holes = {static_cast<float>(1 / (*holes)[0]), static_cast<float>(1 / (*holes)[1])};
     }
     const Double3 edge = to_profile(to_double(light.vertices[1]) - to_double(light.vertices[0]));

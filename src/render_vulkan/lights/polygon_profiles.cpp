@@ -27,11 +27,8 @@ std::uint32_t PolygonProfiles::add(const scene::Scene& scene, const scene::Polyg
     };
     const scene::ProfilePlacement placement = scene::place_profile(light, emission);
     std::uint32_t at = interface::kProfileAxes;
-    const scene::Axes frame{placement.x_axis, placement.y_axis, placement.z_axis};
-    const scene::Axes holes_of_face = scene::Axes::of(
-        frame.to_world(scene::honeycomb_direction(frame.to_local(placement.normal))), placement.normal);
-    for (const scene::Double3& axis :
-         {placement.x_axis, placement.y_axis, placement.z_axis, placement.normal, holes_of_face.x}) {
+    for (const scene::Double3& axis : {placement.x_axis, placement.y_axis, placement.z_axis, placement.normal,
+                                       scene::honeycomb_axis(placement)}) {
         const scene::Float3 rounded = to_float(axis);
         for (const float component : {rounded.x, rounded.y, rounded.z}) set(at++, component);
     }

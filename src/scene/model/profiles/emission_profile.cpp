@@ -207,6 +207,12 @@ Double3 honeycomb_direction(const Double3& normal) {
     return std::fabs(normal.x) < 0.9 ? Double3{1, 0, 0} : Double3{0, 1, 0};
 }
 
+Double3 honeycomb_axis(const ProfilePlacement& placement) {
+    const Axes frame{placement.x_axis, placement.y_axis, placement.z_axis};
+    const Double3 direction = honeycomb_direction(frame.to_local(placement.normal));
+    return Axes::of(frame.to_world(direction), placement.normal).x;
+}
+
 double passed_share(const EmissionProfile& profile, const Double3& normal, const Double3& direction) {
     const double cosine = dot(normal, direction);
     if (const auto holes = honeycomb_slopes(profile)) {

@@ -75,6 +75,9 @@ std::optional<std::array<double, 2>> honeycomb_slopes(const EmissionProfile& pro
 /// face, or the y axis if the face looks along x.
 Double3 honeycomb_direction(const Double3& normal);
 
+/// The same direction in world space, unit and in the plane of the face.
+Double3 honeycomb_axis(const ProfilePlacement& placement);
+
 /// The share that the spread or the honeycomb lets pass.
 /// \param normal    of the face, unit, in the frame of the profile
 /// \param direction unit, in the frame of the profile, on the side of the normal
