@@ -7,10 +7,6 @@
 #include "nusselt/line_emission/textured_tube_ltc.glsl"
 #include "passes/cells/line_cells.glsl"
 
-/// Whether the radiance along lights decides where samples are. Other strategies than the one with lobes take a single technique:
-/// lines and tubes have no samples of the BRDF.
-const bool kHasLineCells = kEmissionSampling == kEmissionSamplingProduct && kIsProjected;
-
 // As textured_line_sample() and textured_line_ltc_sample(), with one copy of what they share.
 TexturedSample cells_sample(LineLightCells cells, int technique, vec2 u) {
     LineCells self = cells.of_technique[technique];
@@ -99,8 +95,7 @@ void modulate(LocalProfiledTube light, inout DirectLightSample s) { modulate(lig
 
 void add_line(inout Estimate estimate, LocalLine light) {
     if (!kHasLineCells || !varies(light.radiance)) {
-        add_by_measure(estimate, light, kHasLines || !kHasLineCells && kHasTexturedLines,
-                       kHasTubes || !kHasLineCells && kHasTexturedTubes);
+        add_by_measure(estimate, light);
         return;
     }
     if (kHasTexturedTubes && is_tube(light)) {

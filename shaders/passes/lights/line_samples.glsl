@@ -123,20 +123,29 @@ void modulate(LocalTube light, inout DirectLightSample s) {
 #undef LOCAL_LIGHT
 #undef TECHNIQUES
 
+#if LINE_CELLS
+/// Whether the radiance along lights decides where samples are. Other strategies than the one with lobes take a single technique:
+/// lines and tubes have no samples of the BRDF.
+const bool kHasLineCells = kEmissionSampling == kEmissionSamplingProduct && kIsProjected;
+#else
+const bool kHasLineCells = false;
+#endif
+
+const bool kHasLinesByMeasure = kHasLines || (kHasTexturedLines && !kHasLineCells);
+const bool kHasTubesByMeasure = kHasTubes || (kHasTexturedTubes && !kHasLineCells);
+
 /// Adds samples by the measure of the technique.
-void add_by_measure(inout Estimate estimate, LocalLine light, bool has_lines, bool has_tubes) {
-    if (has_tubes && is_tube(light))
+void add_by_measure(inout Estimate estimate, LocalLine light) {
+    if (kHasTubesByMeasure && is_tube(light))
         add_light(estimate, tube_of(light));
-    else if (has_lines)
+    else if (kHasLinesByMeasure)
         add_light(estimate, light);
 }
 
 #if LINE_CELLS
 #include "passes/cells/line_cell_samples.glsl"
 #else
-void add_line(inout Estimate estimate, LocalLine light) {
-    add_by_measure(estimate, light, kHasAnyLines, kHasAnyTubes);
-}
+void add_line(inout Estimate estimate, LocalLine light) { add_by_measure(estimate, light); }
 #endif
 
 void add_lines(inout Estimate estimate) {

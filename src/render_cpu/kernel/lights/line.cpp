@@ -14,10 +14,14 @@ void choose(const render_cpu::RenderJob& job, render_cpu::AddLight (&add)[render
     add[5] = profiled_tubes(job);
 }
 
+/// Whether it is sampled as a line: a linear light or a strip, in place of a tube.
+bool is_thin(const render_cpu::LineRecord& record) noexcept {
+    return record.model == scene::TubeModel::linear || record.model == scene::TubeModel::strip;
+}
+
 std::int32_t shape_of(const render_cpu::LightSet& lights, std::int32_t index) noexcept {
     const render_cpu::LineRecord& record = line_record(lights, index);
-    const bool is_thin = record.model == scene::TubeModel::linear || record.model == scene::TubeModel::strip;
-    return (is_thin ? 0 : 1) + (record.directions != nullptr ? 4 : record.profile != nullptr ? 2 : 0);
+    return (is_thin(record) ? 0 : 1) + (record.directions != nullptr ? 4 : record.profile != nullptr ? 2 : 0);
 }
 
 /// Where a ray that meets a light does so, as a share of the length. Cameras see a cylinder with flat sides: rays that miss
@@ -43,10 +47,9 @@ float position_along(const render_cpu::LineRecord& record, const Cylinder<float>
 /// The radiance of a light with a profile over its mean. \param wi unit, towards the light
 float relative_radiance(const render_cpu::LineRecord& record, const Cylinder<float>& tube,
                         const Vec3<float>& wi) noexcept {
-    const bool is_thin = record.model == scene::TubeModel::linear || record.model == scene::TubeModel::strip;
     const LightHit<float> hit = intersect(tube, wi);
     // Beside the round cylinder, cameras see no normal.
-    if (is_thin || !hit.hits) return radiance_of_line(record, -wi);
+    if (is_thin(record) || !hit.hits) return radiance_of_line(record, -wi);
     const Vec3<float> from_start = hit.distance * wi - tube.axis.p0;
     const Vec3<float> across = from_start - dot(from_start, tube.axis.s) * tube.axis.s;
     const Vec3<float> normal = meets_cap(tube, wi) ? tube.axis.s : normalize(across);
