@@ -27,8 +27,8 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether images of polygons decide where samples are, or are integrated: see
-/// shaders/passes/cells/polygon_cell_samples.glsl. Shaders for environments are the same.
+/// Whether the scene has environments, or images of polygons decide where samples are, or are integrated: see
+/// shaders/passes/cells.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
     if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
         constants[interface::kMappedEnvironmentsConstant] != 0)
@@ -43,8 +43,9 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
     if (is_analytic(constants) && constants[interface::kProfiledPolygonsConstant] != 0)
-        throw std::runtime_error("lights with a profile or a spread are not integrated on GPUs; use another "
-                                 "technique or --backend cpu");
+        throw std::runtime_error(
+            "lights with a profile, a spread or a honeycomb are not integrated on GPUs; use another "
+            "technique or --backend cpu");
     const ShaderVariant variant{scene.polygon_slots(), textures.access(), has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),

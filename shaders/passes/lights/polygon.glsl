@@ -8,7 +8,7 @@
 #endif
 
 #ifndef EMISSION_CELLS
-#error EMISSION_CELLS must be 1 where images of lights decide where samples are, else 0: those shaders take longer to compile
+#error EMISSION_CELLS must be 1 for environments and where images of polygons decide where samples are, else 0: it compiles longer
 #endif
 
 #include "nusselt/geometry/convex_polygon.glsl"

@@ -17,11 +17,25 @@ constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, wri
                                   write_environments};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
+/// Shaders with cells have room for 8 vertices only: those for environments and for radiance that varies over polygons or along
+/// lines.
+int polygon_slots_for(const scene::Scene& scene) {
+    const auto& lines = scene.lights.of<scene::LineLight>();
+    const auto& polygons = scene.lights.of<scene::PolygonLight>();
+    const bool are_small =
+        scene.lights.of<scene::EnvironmentLight>().empty() &&
+        std::all_of(polygons.begin(), polygons.end(),
+                    [](const auto& light) { return light.vertices.size() <= 4 && light.texture < 0; }) &&
+        std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.texture < 0; });
+    return are_small ? 4 : 8;
+}
+
 } // namespace
 
 LightRecords make_light_records(const scene::Scene& scene) {
     checked_count(scene.lights.size(), "lights"); // 32 bits then suffice for each list, too
     LightRecords records;
+    records.polygon_slots = polygon_slots_for(scene);
     std::uint32_t number = 0;
     for (const scene::LightList& list : scene.lights) {
         const auto count = static_cast<std::uint32_t>(list.size());

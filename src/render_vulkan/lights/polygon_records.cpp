@@ -8,8 +8,6 @@
 
 #include <nusselt/geometry/convex_polygon.h>
 
-#include <algorithm>
-
 namespace nusselt::render_vulkan {
 
 namespace {
@@ -47,14 +45,7 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
     if (polygons == nullptr) return false;
     const std::vector<scene::PolygonLight>& lights = polygons->lights;
-    // Shaders for lights with a texture and for environments have room for 8 vertices only.
-    const auto& lines = scene.lights.of<scene::LineLight>();
-    const bool are_small =
-        scene.lights.of<scene::EnvironmentLight>().empty() &&
-        std::all_of(lights.begin(), lights.end(),
-                    [](const auto& light) { return light.vertices.size() <= 4 && light.texture < 0; }) &&
-        std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.texture < 0; });
-    records.polygon_slots = are_small ? 4 : 8;
+    const bool are_small = records.polygon_slots == 4;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
     LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
