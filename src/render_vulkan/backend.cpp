@@ -23,9 +23,12 @@ void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame
     }
 }
 
-/// Whether the CPU would sample lights whose radiance varies in proportion to it.
-bool asks_for_products(const render::RenderSettings& settings) {
+/// Whether the CPU would sample lights with a profile in proportion to it: takes_windowed_products() of its kernel, for the
+/// strategies that have products.
+bool asks_for_windowed_products(const render::RenderSettings& settings) {
     using render::Technique;
+    if (settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal)
+        return false;
     return settings.emission_sampling == render::EmissionSampling::product &&
            !samples_visible_normals(settings.strategies) &&
            (settings.technique == Technique::projected_solid_angle ||
@@ -69,12 +72,12 @@ std::optional<std::string> VulkanBackend::why_unsupported(const render::RenderSe
 
 std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,
                                                  const render::RenderSettings& settings) const {
-    if (!asks_for_products(settings)) return {};
+    if (!asks_for_windowed_products(settings)) return {};
     const std::vector<scene::PolygonLight>& lights = scene.lights.of<scene::PolygonLight>();
     const auto count =
         std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.profile >= 0; });
     if (count == 0) return {};
-    return {"lights with a profile or a spread (" + std::to_string(count) +
+    return {"lights with a profile, a spread or a honeycomb (" + std::to_string(count) +
             ") are sampled as with --emission-sampling " +
             std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them"};
 }

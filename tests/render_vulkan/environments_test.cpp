@@ -1,7 +1,6 @@
 /// Environments: GPUs render the images of the CPU.
 
-#include "comparison.h"
-#include "gpu_test.h"
+#include "emission_test.h"
 #include "lab/errors/bias_statistics.h"
 #include "rich_scene.h"
 #include "scenes.h"
@@ -79,22 +78,11 @@ render::RenderSettings centred() {
     return settings;
 }
 
-class Environments : public parity::GpuTest {
+class Environments : public EmissionTest {
 protected:
-    VulkanRenderer renderer_of(const scene::Scene& scene) const {
-        return {device(), scene, render_vulkan::default_shadow_rays(device())};
-    }
-
     static void expect_agreement(VulkanRenderer& renderer, const render::RenderSettings& settings) {
-        SCOPED_TRACE(testing::Message() << name_of(settings.technique) << ", " << name_of(settings.strategies)
-                                        << ", " << name_of(settings.mis));
-        const render::RenderResult result = renderer.render(settings);
-        EXPECT_LT(differing_share(result.image, render_on_cpu(make_scene(kWidth, kHeight), settings)),
-                  lab::kLargestDifferingShare);
-        EXPECT_EQ(result.statistics.rejected_samples, 0u);
-        // The test of the test.
-        EXPECT_GT(differing_share(result.image, render_on_cpu(make_mutant(kWidth, kHeight), settings)),
-                  2 * lab::kLargestDifferingShare);
+        EmissionTest::expect_agreement(renderer, make_scene(kWidth, kHeight), make_mutant(kWidth, kHeight),
+                                       settings);
     }
 };
 

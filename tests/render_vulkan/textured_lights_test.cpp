@@ -1,7 +1,6 @@
 /// Lights that emit an image: with samples by the measure, the GPU renders the image of the CPU; cells have the same mean.
 
-#include "comparison.h"
-#include "gpu_test.h"
+#include "emission_test.h"
 #include "lab/errors/bias_statistics.h"
 #include "rich_scene.h"
 #include "scenes.h"
@@ -89,21 +88,11 @@ std::vector<render::Mis> heuristics_of(Strategies strategies) {
     return all;
 }
 
-class TexturedLights : public parity::GpuTest {
+class TexturedLights : public EmissionTest {
 protected:
-    VulkanRenderer renderer_of(const scene::Scene& scene) const {
-        return {device(), scene, render_vulkan::default_shadow_rays(device())};
-    }
-
     static void expect_agreement(VulkanRenderer& renderer, const render::RenderSettings& settings) {
-        SCOPED_TRACE(testing::Message() << name_of(settings.strategies) << ", " << name_of(settings.mis));
-        const scene::Scene scene = make_scene(kWidth, kHeight);
-        const render::RenderResult result = renderer.render(settings);
-        EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), lab::kLargestDifferingShare);
-        EXPECT_EQ(result.statistics.rejected_samples, 0u);
-        // The test of the test.
-        EXPECT_GT(differing_share(result.image, render_on_cpu(make_mutant(kWidth, kHeight), settings)),
-                  2 * lab::kLargestDifferingShare);
+        EmissionTest::expect_agreement(renderer, make_scene(kWidth, kHeight), make_mutant(kWidth, kHeight),
+                                       settings);
     }
 };
 

@@ -1,7 +1,6 @@
 /// Lines and tubes whose radiance varies along them: the GPU renders the image of the CPU.
 
-#include "comparison.h"
-#include "gpu_test.h"
+#include "emission_test.h"
 #include "rich_scene.h"
 #include "scenes.h"
 
@@ -98,16 +97,11 @@ scene::Scene mutant_of(scene::Scene scene) {
     return scene;
 }
 
-class TexturedLines : public parity::GpuTest {
+class TexturedLines : public EmissionTest {
 protected:
     void expect_agreement(const scene::Scene& scene, const render::RenderSettings& settings) const {
-        VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
-        const render::RenderResult result = renderer.render(settings);
-        EXPECT_LT(differing_share(result.image, render_on_cpu(scene, settings)), lab::kLargestDifferingShare);
-        EXPECT_EQ(result.statistics.rejected_samples, 0u);
-        // The test of the test.
-        EXPECT_GT(differing_share(result.image, render_on_cpu(mutant_of(scene), settings)),
-                  2 * lab::kLargestDifferingShare);
+        VulkanRenderer renderer = renderer_of(scene);
+        EmissionTest::expect_agreement(renderer, scene, mutant_of(scene), settings);
     }
 };
 
