@@ -113,7 +113,7 @@ TEST_F(Agreement, OfPhongSurfaces) {
         exponent = 400;
     }
     ASSERT_EQ(exponent, 400);
-    // Drivers take the longer for each kind of light.
+    // Each kind of light makes drivers compile longer.
     scene.lights.of<scene::LineLight>().clear();
     VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     render::RenderSettings settings = centred(2);

@@ -43,7 +43,7 @@ std::shared_ptr<const scene::EnvironmentMapTexels> make_map(int size, float brig
 /// A sky with a map, one that is the same everywhere, and one whose map is black. The camera sees them behind the walls.
 scene::Scene make_scene(int width, int height) {
     scene::Scene scene = make_plain_scene(width, height);
-    // Drivers take the longer for each kind of light.
+    // Each kind of light makes drivers compile longer.
     scene.lights.clear();
     scene.emitters.clear();
     std::fill(scene.triangle_light.begin(), scene.triangle_light.end(), -1);

@@ -44,7 +44,7 @@ scene::PolygonLight make_triangle(scene::Scene& scene, float left) {
 /// A panel that shines as a luminaire, and triangles with a spread and with a honeycomb, which the camera sees.
 scene::Scene make_polygon_scene(int width, int height, double angle, double holes = 100) {
     scene::Scene scene = make_plain_scene(width, height);
-    // Drivers take the longer for each kind of light.
+    // Each kind of light makes drivers compile longer.
     scene.lights.of<scene::LineLight>().clear();
     auto& lights = scene.lights.of<scene::PolygonLight>();
     lights.resize(1);

@@ -169,7 +169,7 @@ std::shared_ptr<const scene::Luminaire> make_luminaire() {
 scene::Scene make_scene_of_light_sources(int width, int height) {
     using scene::PointDistribution;
     scene::Scene scene = make_plain_scene(width, height);
-    // Drivers take the longer for each kind of light.
+    // Each kind of light makes drivers compile longer.
     scene.lights.clear();
     scene.emitters.clear();
     std::fill(scene.triangle_light.begin(), scene.triangle_light.end(), -1);

@@ -55,7 +55,7 @@ void set_texture(scene::Scene& scene, scene::PolygonLight& light, const scene::E
 /// A panel and a triangle with images, which the camera sees, and a uniform light.
 scene::Scene make_scene(int width, int height) {
     scene::Scene scene = make_plain_scene(width, height);
-    // Drivers take the longer for each kind of light.
+    // Each kind of light makes drivers compile longer.
     scene.lights.of<scene::LineLight>().clear();
     auto& lights = scene.lights.of<scene::PolygonLight>();
     const std::array<Float2, 4> of_panel = {{{0.1f, 0.05f}, {0.1f, 0.9f}, {1, 0.9f}, {1, 0.05f}}};

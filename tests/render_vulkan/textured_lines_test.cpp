@@ -114,7 +114,7 @@ render::RenderSettings centred(EmissionSampling sampling) {
     return settings;
 }
 
-// Drivers take the longer for each shape and technique.
+// Each shape and technique makes drivers compile longer.
 TEST_F(TexturedLines, WithoutExtent_AgreeWithTheCpu) {
     expect_agreement(make_lines(), centred(EmissionSampling::product));
 }

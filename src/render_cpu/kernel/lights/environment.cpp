@@ -94,7 +94,7 @@ void add_uniform_by_cosine(render_cpu::LitPacket& packet, const render_cpu::Ligh
     add_samples(reflected, light, CosineOfSky{light.shape});
 }
 
-/// All of the lobe counts, as if it were above the horizon.
+/// The part of the lobe below the horizon counts, too.
 void add_uniform_analytically(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                               std::int32_t index) noexcept {
     auto& reflected = static_cast<ReflectedLight&>(packet);
