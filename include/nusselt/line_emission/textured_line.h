@@ -55,9 +55,9 @@ struct LobeLines {
     NUSSELT_HD Real ratio_for(const LineSegment<Real>& line) const noexcept {
         const Real thicker = Real(kPi<scalar_t<Real>>) * radius_ratio(cross(line.p0, line.s), ltc);
         const Real ratio = Real(1) / select(thicker > Real(0), thicker, Real(1));
-        const auto seen =
-            (thicker > Real(0)) & is_finite(ratio) & (centered(to_safe_extent(line)).length > Real(0));
-        return select(seen, ratio, Real(0));
+        const Real length = centered(to_safe_extent(line)).length;
+        const mask_t<Real> finite = is_finite(ratio);
+        return select((thicker > Real(0)) & finite & (length > Real(0)), ratio, Real(0));
     }
 };
 

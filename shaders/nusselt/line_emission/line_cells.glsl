@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
-// Follows include/nusselt/line_emission/textured_line.h @ d7c608849ffc
+// Follows include/nusselt/line_emission/textured_line.h @ fc28af3f6025
 /// What TexturedLine and TexturedLineLtc share: they choose a cell in proportion to the mean of radiance at both ends times the
 /// closed form of its measure, and a point in the cell by a linear density. Twin of include/nusselt/line_emission/textured_line.h.
 
