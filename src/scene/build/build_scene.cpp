@@ -148,7 +148,7 @@ void replace_missing_materials(std::vector<std::uint32_t>& triangle_material,
 void take_shapes(BuiltShape&& shapes, const std::filesystem::path& path, Scene& scene) {
     // First, because the origins can be released before the arrays below grow.
     scene.emitters = name_emitters(shapes.emitters, path);
-    shapes.emitters = {};
+    shapes.emitters = std::vector<EmitterOrigin>(); // `= {}` would keep the memory
     scene.positions = std::move(shapes.positions);
     scene.normals = std::move(shapes.normals);
     scene.uvs = std::move(shapes.uvs);

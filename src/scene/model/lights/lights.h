@@ -21,7 +21,7 @@ public:
         else
             lights.insert(lights.end(), std::make_move_iterator(added.begin()),
                           std::make_move_iterator(added.end()));
-        added = {};
+        added = std::vector<Light>(); // `= {}` would keep the memory
     }
     void reserve(std::size_t count) override { lights.reserve(count); }
     void clear() override { lights.clear(); }
