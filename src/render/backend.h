@@ -55,8 +55,12 @@ public:
     /// The name by which users choose the backend.
     virtual std::string_view name() const = 0;
 
-    /// The reason for which settings are not supported; nothing if they are. \param settings valid
+    /// The reason for which settings are not supported, whatever the scene; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
+
+    /// The same for a scene with these settings.
+    virtual std::optional<std::string> why_unsupported(const scene::Scene& scene,
+                                                       const RenderSettings& settings) const = 0;
 
     /// What the backend does in another way than settings ask for, a sentence each. \param settings valid and supported
     virtual std::vector<std::string> warnings(const scene::Scene& /*scene*/,

@@ -26,6 +26,11 @@ private:
 
 CpuBackend::CpuBackend(base::Isa isa, int threads) : isa_(isa), threads_(checked_thread_count(threads)) {}
 
+std::optional<std::string> CpuBackend::why_unsupported(const scene::Scene&,
+                                                       const render::RenderSettings&) const {
+    return std::nullopt;
+}
+
 std::optional<std::string> CpuBackend::why_unsupported(const render::RenderSettings&) const {
     return std::nullopt;
 }

@@ -15,6 +15,8 @@ public:
 
     std::string_view name() const override { return "cpu"; }
     std::optional<std::string> why_unsupported(const render::RenderSettings& settings) const override;
+    std::optional<std::string> why_unsupported(const scene::Scene& scene,
+                                               const render::RenderSettings& settings) const override;
     std::size_t layer_sum_bytes(const scene::Scene& scene,
                                 const render::RenderSettings& settings) const override;
     std::unique_ptr<render::PreparedScene> prepare(const scene::Scene& scene) const override;

@@ -1,6 +1,7 @@
 #include "render_vulkan/accumulator.h"
 
 #include "render/film.h"
+#include "render_vulkan/unsupported.h"
 #include "shaders/visibility_fragment_buffer.h"
 #include "shaders/visibility_fragment_images.h"
 #include "shaders/visibility_vertex.h"
@@ -16,9 +17,9 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-const render::RenderSettings& checked(const render::RenderSettings& settings) {
+const render::RenderSettings& checked(const render::RenderSettings& settings, const DeviceScene& scene) {
     validate(settings);
-    if (const auto reason = why_unsupported(settings)) throw std::invalid_argument(*reason);
+    if (const auto reason = why_unsupported(scene.kinds(), settings)) throw std::invalid_argument(*reason);
     return settings;
 }
 
@@ -53,13 +54,13 @@ std::uint64_t group_count(std::uint64_t count, std::uint64_t size) { return (cou
 
 Accumulator::Accumulator(const DeviceScene& scene, const render::RenderSettings& settings)
     : scene_(scene),
-      constants_(shading_constants(checked(settings), scene.kinds())),
+      constants_(shading_constants(checked(settings, scene), scene.kinds())),
       pixels_(make_pixels(scene)),
       visibility_(make_visibility_pass(scene, pixels_)),
       next_row_(pixels_.height) {}
 
 void Accumulator::restart(const render::RenderSettings& settings) {
-    const std::vector<std::uint32_t> constants = shading_constants(checked(settings), scene_.kinds());
+    const std::vector<std::uint32_t> constants = shading_constants(checked(settings, scene_), scene_.kinds());
     if (constants != constants_) {
         shading_.reset();
         constants_ = constants;
@@ -214,16 +215,6 @@ FrameWork checked_work(const interface::WorkRecord& work, const std::string& dev
         return std::uint64_t{words[1]} << 32 | words[0];
     };
     return {joined(work.shadow_rays), joined(work.rejected_samples)};
-}
-
-std::optional<std::string> why_unsupported(const render::RenderSettings& settings) {
-    const std::string rest = " not supported on GPUs";
-    if (settings.light_samples != render::LightSamples::points)
-        return "--light-samples " + std::string(name_of(settings.light_samples)) + " is" + rest;
-    if (!settings.layers.empty())
-        return "layer " + std::string(name_of(settings.layers.front())) + " is" + rest;
-    if (settings.part.count > 1) return "--part is" + rest;
-    return std::nullopt;
 }
 
 } // namespace nusselt::render_vulkan

@@ -108,7 +108,4 @@ private:
     std::uint32_t next_row_;          ///< height() when the frame is finished
 };
 
-/// Names the first setting that is not supported on GPUs; empty if all are.
-std::optional<std::string> why_unsupported(const render::RenderSettings& settings);
-
 } // namespace nusselt::render_vulkan

@@ -2,6 +2,7 @@
 
 #include "render_vulkan/accumulator.h"
 #include "render_vulkan/renderer.h"
+#include "render_vulkan/unsupported.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,11 @@ VulkanBackend::VulkanBackend(const gpu::DeviceOptions& options, std::optional<Sh
 
 std::optional<std::string> VulkanBackend::why_unsupported(const render::RenderSettings& settings) const {
     return render_vulkan::why_unsupported(settings);
+}
+
+std::optional<std::string> VulkanBackend::why_unsupported(const scene::Scene& scene,
+                                                          const render::RenderSettings& settings) const {
+    return render_vulkan::why_unsupported(scene, settings);
 }
 
 std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,

@@ -42,10 +42,6 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    if (is_analytic(constants) && constants[interface::kProfiledPolygonsConstant] != 0)
-        throw std::runtime_error(
-            "lights with a profile, a spread or a honeycomb are not integrated on GPUs; use another "
-            "technique or --backend cpu");
     const ShaderVariant variant{scene.polygon_slots(), textures.access(), has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),

@@ -103,10 +103,15 @@ TEST_F(Gpu, WithoutADriverAutoRendersOnTheCpu) {
 }
 
 TEST_F(Gpu, AutoOnTheCpuDoesNotAdviseTheCpu) {
-    const std::string render = "render '" + kScenes + "/cornell-tube.pbrt' --resolution 8x8 -o a.exr ";
-    for (const auto& [options, reason] :
-         {std::pair("--layers normal", "layer normal is not supported on GPUs"),
-          std::pair("--light-samples lines", "--light-samples lines is not supported on GPUs")}) {
+    const auto [tube, street] = std::pair("cornell-tube.pbrt", "street.pbrt");
+    for (const auto& [scene, options, reason] :
+         {std::tuple(tube, "--layers normal", "layer normal is not supported on GPUs"),
+          std::tuple(tube, "--light-samples lines", "--light-samples lines is not supported on GPUs"),
+          std::tuple(
+              street, "--technique ltc_analytic --strategies diffuse",
+              "--technique ltc_analytic is not supported on GPUs for polygons with a profile, a spread "
+              "or a honeycomb")}) {
+        const std::string render = "render '" + kScenes + '/' + scene + "' --resolution 8x8 -o a.exr ";
         const Outcome automatic = run(render + "--backend auto " + options, kNoDriver);
         EXPECT_EQ(automatic.exit_code, 0) << automatic.err;
         EXPECT_NE(automatic.err.find("rendering on the CPU: "), std::string::npos) << automatic.err;
@@ -115,6 +120,10 @@ TEST_F(Gpu, AutoOnTheCpuDoesNotAdviseTheCpu) {
         if (lacks_device(vulkan)) continue;
         EXPECT_EQ(vulkan.exit_code, 1);
         expect_message(vulkan.err, std::string(reason) + "; use --backend cpu");
+        const Outcome with_device = run(render + "--backend auto --device 0 " + options);
+        EXPECT_EQ(with_device.exit_code, 0) << with_device.err;
+        EXPECT_NE(with_device.err.find("rendering on the CPU: " + std::string(reason)), std::string::npos)
+            << with_device.err;
     }
 }
 

@@ -216,7 +216,7 @@ TEST_F(Agreement, OfShippedScenes) {
         SCOPED_TRACE(entry.path().filename());
         scene::Scene scene = scene::load_scene(entry.path());
         render::resize_film(scene, kWidth, kHeight);
-        if (!is_supported(scene)) {
+        if (render_vulkan::why_unsupported(scene, settings.front())) {
             EXPECT_THROW(VulkanRenderer(device(), scene, ShadowRays::bvh), std::runtime_error);
             continue;
         }

@@ -54,8 +54,11 @@ TEST_F(LightKindsOnGpu, WithoutARowAreRefused) {
                                                render_vulkan::ShadowRays::none);
     scene::Scene scene = make_scene_with_disc();
     EXPECT_EQ(error_of([&] { static_cast<void>(backend.prepare(scene)); }), kRefusal);
+    EXPECT_EQ(backend.why_unsupported(scene, {}), "disc lights are not supported on GPUs");
+    EXPECT_THROW(static_cast<void>(render::render(backend, scene, {})), std::invalid_argument);
     scene.lights.of<DiscLight>().clear();
     EXPECT_EQ(error_of([&] { static_cast<void>(backend.prepare(scene)); }), "");
+    EXPECT_EQ(backend.why_unsupported(scene, {}), std::nullopt);
 }
 
 /// The constants of shapes that a scene has.

@@ -8,6 +8,7 @@
 #include "bench_gpu_frames_report.h"
 
 #include "lab/timing/llvmpipe_threads.h"
+#include "render_vulkan/unsupported.h"
 #include "scene/import/importers.h"
 #include "scene/input/message.h"
 
@@ -39,12 +40,19 @@ public:
             const std::string name(name_of(settings.technique));
             if (options.techniques.empty() || std::find(options.techniques.begin(), options.techniques.end(),
                                                         name) != options.techniques.end())
-                settings_.push_back(settings);
+                chosen_settings_.push_back(settings);
         }
     }
 
     void add(const std::string& name, const scene::Scene& scene) {
         print_message("{}\n", name);
+        settings_.clear();
+        for (const render::RenderSettings& settings : chosen_settings_) {
+            if (const auto reason = render_vulkan::why_unsupported(scene, settings))
+                print_message("not measured: {}\n", *reason);
+            else
+                settings_.push_back(settings);
+        }
         add_techniques(name, scene);
         add_line_and_quad(name, scene);
     }
@@ -123,7 +131,8 @@ private:
     const gpu::Device& device_;
     GpuFrameTable& table_;
     std::vector<ShadowRays> ways_;
-    std::vector<render::RenderSettings> settings_;
+    std::vector<render::RenderSettings> chosen_settings_;
+    std::vector<render::RenderSettings> settings_; ///< those that GPUs support for the scene
 };
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& scene) {

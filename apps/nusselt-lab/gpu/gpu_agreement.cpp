@@ -6,6 +6,7 @@
 
 #include "lab/errors/image_agreement.h"
 #include "lab/timing/llvmpipe_threads.h"
+#include "render_vulkan/unsupported.h"
 #include "scene/import/importers.h"
 #include "scene/input/message.h"
 
@@ -48,6 +49,7 @@ int run(const Options& options) {
                                 {"differing_share"},
                                 {"rejected_samples"},
                                 {"passes"}}};
+    lab::ResultTable left_out = {"left_out", {{"scene"}, {"technique"}, {"strategies"}, {"reason"}}};
     lab::ResultTable failures = {"failures", {{"scene"}, {"message"}}};
     bool passes = true;
     for (const auto& path : options.scenes.empty() ? shipped_scenes(options.scene_folder) : options.scenes) {
@@ -55,7 +57,18 @@ int run(const Options& options) {
         try {
             scene::Scene scene = scene::load_scene(path);
             apply_resolution(options.resolution, scene);
-            for (const lab::ImageAgreement& row : lab::compare_with_cpu(device, scene, ways, settings)) {
+            std::vector<render::RenderSettings> supported;
+            for (const render::RenderSettings& one : settings) {
+                const auto reason = render_vulkan::why_unsupported(scene, one);
+                if (!reason) {
+                    supported.push_back(one);
+                    continue;
+                }
+                left_out.rows.push_back({name, std::string(name_of(one.technique)),
+                                         std::string(name_of(one.strategies)), *reason});
+                print_message("{}: left out: {}\n", name, *reason);
+            }
+            for (const lab::ImageAgreement& row : lab::compare_with_cpu(device, scene, ways, supported)) {
                 if (options.json != "-") print(name, row);
                 passes &= row.passes();
                 images.rows.push_back({name, std::string(name_of(row.shadow_rays)),
@@ -73,7 +86,7 @@ int run(const Options& options) {
     lab::Results results = {"agreement",
                             device_settings(device.description(), device.pass_clock(),
                                             lab::llvmpipe_threads(device.description())),
-                            {std::move(images), std::move(failures)}};
+                            {std::move(images), std::move(left_out), std::move(failures)}};
     results.settings.emplace_back("ray_queries", device.features().ray_queries);
     results.settings.emplace_back("largest_share", lab::kLargestDifferingShare);
     write_results(options.json, results, [&] {
@@ -90,7 +103,8 @@ void setup_gpu_agreement(CLI::App& gpu, int& exit_code) {
         gpu.add_subcommand("agreement", "Images of a device and of the CPU with the same random numbers. "
                                         "Prints the share of pixels that differ, "
                                         "for each technique and each way to trace shadow rays; exits with 1 "
-                                        "if it is 3 % or more. Only pixels along "
+                                        "if it is 3 % or more. Leaves out what GPUs do not support, "
+                                        "and says so. Only pixels along "
                                         "edges may differ, of which there are more in small images.");
     add_scenes_options(*command, options->scenes, options->scene_folder);
     add_resolution_option(*command, options->resolution);

@@ -214,7 +214,7 @@ int run_render(const RenderOptions& options) {
     render::RenderSettings settings = make_settings(options);
     check_outputs(options);
     base::check_exist(input_paths(options));
-    const std::unique_ptr<render::Backend> backend = make_backend(options, settings);
+    std::unique_ptr<render::Backend> chosen = make_backend(options, settings);
 
     const bool goes_on = options.checkpoint && std::filesystem::exists(*options.checkpoint);
     const char* const last_words = goes_on ? kCheckpointKept : kStoppedEarly;
@@ -224,6 +224,7 @@ int run_render(const RenderOptions& options) {
     check_names(options, scene);
     choose_samples(options, scene.film, settings);
     apply_resolution(options.resolution, scene);
+    const std::unique_ptr<render::Backend> backend = backend_for(scene, std::move(chosen), options, settings);
     Times times;
     times.load = stopwatch.seconds();
     if (!options.quiet) {

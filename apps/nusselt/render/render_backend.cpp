@@ -90,18 +90,35 @@ bool renders_on_cpu(const RenderOptions& options, const render::RenderSettings& 
     return reason.has_value();
 }
 
+std::unique_ptr<render::Backend> make_cpu_backend(const RenderOptions& options) {
+    return std::make_unique<render_cpu::CpuBackend>(
+        base::choose_isa(options.isa), options.threads.value_or(render_cpu::default_thread_count()));
+}
+
 } // namespace
 
 std::unique_ptr<render::Backend> make_backend(const RenderOptions& options,
                                               const render::RenderSettings& settings) {
-    if (renders_on_cpu(options, settings))
-        return std::make_unique<render_cpu::CpuBackend>(
-            base::choose_isa(options.isa), options.threads.value_or(render_cpu::default_thread_count()));
+    if (renders_on_cpu(options, settings)) return make_cpu_backend(options);
     std::unique_ptr<render::Backend> gpu = make_gpu_backend(options);
     if (const auto reason = gpu->why_unsupported(settings))
         throw std::invalid_argument(*reason + "; use --backend cpu");
-    if (!options.quiet) print_message("rendering on {}\n", gpu->metadata().at("device"));
     return gpu;
+}
+
+std::unique_ptr<render::Backend> backend_for(const scene::Scene& scene,
+                                             std::unique_ptr<render::Backend> backend,
+                                             const RenderOptions& options,
+                                             const render::RenderSettings& settings) {
+    if (const auto reason = backend->why_unsupported(scene, settings)) {
+        if (options.backend != "auto") throw std::invalid_argument(*reason + "; use --backend cpu");
+        if (!options.quiet) print_message("rendering on the CPU: {}\n", *reason);
+        return make_cpu_backend(options);
+    }
+    const image::Metadata metadata = backend->metadata();
+    const auto device = metadata.find("device");
+    if (device != metadata.end() && !options.quiet) print_message("rendering on {}\n", device->second);
+    return backend;
 }
 
 } // namespace nusselt::app

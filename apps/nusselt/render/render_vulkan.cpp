@@ -2,8 +2,8 @@
 #include "render_backend.h"
 
 #include "gpu/device.h"
-#include "render_vulkan/accumulator.h"
 #include "render_vulkan/backend.h"
+#include "render_vulkan/unsupported.h"
 
 namespace nusselt::app {
 

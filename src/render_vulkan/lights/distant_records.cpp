@@ -5,11 +5,10 @@
 
 namespace nusselt::render_vulkan {
 
-bool write_distants(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
-    const auto* const distants = dynamic_cast<const scene::LightsOf<scene::DistantLight>*>(&list);
-    if (distants == nullptr) return false;
+void write_distants(const scene::Scene& /*scene*/, const scene::LightList& list, LightRecords& records) {
+    const auto& distants = dynamic_cast<const scene::LightsOf<scene::DistantLight>&>(list);
     std::vector<interface::DistantLightRecord> lights;
-    for (const scene::DistantLight& light : distants->lights) {
+    for (const scene::DistantLight& light : distants.lights) {
         const scene::Float3& way = light.direction;
         interface::DistantLightRecord& record = lights.emplace_back();
         copy({-way.x, -way.y, -way.z}, record.to_light);
@@ -17,7 +16,6 @@ bool write_distants(const scene::Scene& /*scene*/, const scene::LightList& list,
     }
     records.array_at(interface::kDistantLightsBinding) = make_light_array("distant lights", lights);
     records.has_shape_of(interface::kDistantsConstant) = !lights.empty();
-    return true;
 }
 
 } // namespace nusselt::render_vulkan

@@ -35,15 +35,11 @@ std::uint32_t add_map(const scene::EnvironmentMapTexels& map, const scene::Float
 
 } // namespace
 
-bool write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
-    const auto* const environments = dynamic_cast<const scene::LightsOf<scene::EnvironmentLight>*>(&list);
-    if (environments == nullptr) return false;
+void write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto& environments = dynamic_cast<const scene::LightsOf<scene::EnvironmentLight>&>(list);
     std::vector<std::uint32_t>& words = records.array_at(interface::kEmissionWordsBinding).words;
     std::vector<interface::EnvironmentLightRecord> lights;
-    for (const scene::EnvironmentLight& light : environments->lights) {
-        if (light.portal.size() > 0)
-            throw std::runtime_error(
-                "environments with a portal are not supported on GPUs; use --backend cpu");
+    for (const scene::EnvironmentLight& light : environments.lights) {
         interface::EnvironmentLightRecord& record = lights.emplace_back();
         copy(light.x_axis, record.x_axis);
         copy(light.y_axis, record.y_axis);
@@ -57,7 +53,6 @@ bool write_environments(const scene::Scene& scene, const scene::LightList& list,
                                             light.radiance, words);
     }
     records.array_at(interface::kEnvironmentLightsBinding) = make_light_array("environments", lights);
-    return true;
 }
 
 } // namespace nusselt::render_vulkan

@@ -10,12 +10,30 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-using WriteLights = bool (*)(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+template <class Light>
+bool is_list_of(const scene::LightList& list) {
+    return dynamic_cast<const scene::LightsOf<Light>*>(&list) != nullptr;
+}
+
+/// A kind of light that shaders know.
+struct Kind {
+    bool (*has)(const scene::LightList& list);
+    void (*write)(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+};
 
 /// By the number of the kind in shaders/interface/lights.h.
-constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, write_distants,
-                                  write_environments};
+constexpr Kind kKinds[] = {{is_list_of<scene::PolygonLight>, write_polygons},
+                           {is_list_of<scene::LineLight>, write_lines},
+                           {is_list_of<scene::PointLight>, write_points},
+                           {is_list_of<scene::DistantLight>, write_distants},
+                           {is_list_of<scene::EnvironmentLight>, write_environments}};
 static_assert(std::size(kKinds) == interface::kLightKinds);
+
+/// The end of the table if shaders do not know the kind.
+const Kind* find_kind(const scene::LightList& list) {
+    return std::find_if(std::begin(kKinds), std::end(kKinds),
+                        [&](const Kind& kind) { return kind.has(list); });
+}
 
 /// Shaders with cells have room for 8 vertices only: those for environments and for radiance that varies over polygons or along
 /// lines.
@@ -32,20 +50,34 @@ int polygon_slots_for(const scene::Scene& scene) {
 
 } // namespace
 
+std::optional<std::string> why_unsupported(const scene::Lights& lights) {
+    const std::string rest = " are not supported on GPUs";
+    for (const scene::LightList& list : lights)
+        if (list.size() > 0 && find_kind(list) == std::end(kKinds))
+            return std::string(list.name()) + " lights" + rest;
+    const auto& environments = lights.of<scene::EnvironmentLight>();
+    if (std::any_of(environments.begin(), environments.end(),
+                    [](const auto& light) { return light.portal.size() > 0; }))
+        return "environments with a portal" + rest;
+    const auto& lines = lights.of<scene::LineLight>();
+    if (std::any_of(lines.begin(), lines.end(), [](const auto& light) { return light.profile >= 0; }))
+        return "tubes and lines with a profile or a spread" + rest;
+    return std::nullopt;
+}
+
 LightRecords make_light_records(const scene::Scene& scene) {
+    if (const auto reason = why_unsupported(scene.lights))
+        throw std::runtime_error(*reason + "; use --backend cpu");
     checked_count(scene.lights.size(), "lights"); // 32 bits then suffice for each list, too
     LightRecords records;
     records.polygon_slots = polygon_slots_for(scene);
     std::uint32_t number = 0;
     for (const scene::LightList& list : scene.lights) {
         const auto count = static_cast<std::uint32_t>(list.size());
-        const auto* const kind = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                              [&](WriteLights write) { return write(scene, list, records); });
-        if (kind != std::end(kKinds))
-            records.ranges.at(static_cast<std::size_t>(kind - kKinds)) = {number, count};
-        else if (count > 0)
-            throw std::runtime_error(std::string(list.name()) +
-                                     " lights are not supported on GPUs; use --backend cpu");
+        const Kind* const kind = find_kind(list);
+        if (kind == std::end(kKinds)) continue; // without lights
+        kind->write(scene, list, records);
+        records.ranges.at(static_cast<std::size_t>(kind - kKinds)) = {number, count};
         number += count;
     }
     return records;

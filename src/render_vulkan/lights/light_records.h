@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -45,15 +47,17 @@ struct LightRecords {
     }
 };
 
-/// \throws std::runtime_error if the scene has more lights than 32-bit numbers reach, or lights of a kind that shaders do not
-///         know
+/// The reason for which shaders cannot have all of the lights; nothing if they can.
+std::optional<std::string> why_unsupported(const scene::Lights& lights);
+
+/// \throws std::runtime_error if the scene has more lights than 32-bit numbers reach, or lights that shaders cannot have
 LightRecords make_light_records(const scene::Scene& scene);
 
-// The rows of the table of kinds. Each writes its arrays and shapes; false if the list is of another kind.
-bool write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
-bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
-bool write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
-bool write_distants(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
-bool write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+// The rows of the table of kinds. Each writes the arrays and shapes of lights of its kind.
+void write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+void write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+void write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+void write_distants(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+void write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 } // namespace nusselt::render_vulkan

@@ -52,15 +52,10 @@ std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& lig
 
 } // namespace
 
-bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
-    const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
-    if (lines == nullptr) return false;
-    if (std::any_of(lines->lights.begin(), lines->lights.end(),
-                    [](const auto& light) { return light.profile >= 0; }))
-        throw std::runtime_error(
-            "tubes and lines with a profile or a spread are not supported on GPUs; use --backend cpu");
+void write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto& lines = dynamic_cast<const scene::LightsOf<scene::LineLight>&>(list);
     std::vector<interface::LineLightRecord> lights;
-    for (const scene::LineLight& light : lines->lights) {
+    for (const scene::LineLight& light : lines.lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));
         interface::LineLightRecord& record = lights.emplace_back();
         copy(scene::to_float3(line.p0), record.begin);
@@ -78,7 +73,6 @@ bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightR
                 : add_profile(scene, light, records.array_at(interface::kEmissionWordsBinding).words);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);
-    return true;
 }
 
 } // namespace nusselt::render_vulkan

@@ -38,12 +38,11 @@ std::uint32_t add_luminaire(const scene::Scene& scene, const scene::PointLight& 
 
 } // namespace
 
-bool write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
-    const auto* const points = dynamic_cast<const scene::LightsOf<scene::PointLight>*>(&list);
-    if (points == nullptr) return false;
+void write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto& points = dynamic_cast<const scene::LightsOf<scene::PointLight>&>(list);
     std::vector<interface::PointLightRecord> lights;
     LuminaireWords luminaires;
-    for (const scene::PointLight& light : points->lights) {
+    for (const scene::PointLight& light : points.lights) {
         const scene::ConeFalloff falloff = cone_falloff(light);
         interface::PointLightRecord& record = lights.emplace_back();
         copy(light.position, record.position);
@@ -62,7 +61,6 @@ bool write_points(const scene::Scene& scene, const scene::LightList& list, Light
         records.has_shape_of(constant_of(light)) = true;
     }
     records.array_at(interface::kPointLightsBinding) = make_light_array("point lights", lights);
-    return true;
 }
 
 } // namespace nusselt::render_vulkan

@@ -41,10 +41,9 @@ int constant_of(const scene::PolygonLight& light) {
 
 } // namespace
 
-bool write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
-    const auto* const polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>*>(&list);
-    if (polygons == nullptr) return false;
-    const std::vector<scene::PolygonLight>& lights = polygons->lights;
+void write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto& polygons = dynamic_cast<const scene::LightsOf<scene::PolygonLight>&>(list);
+    const std::vector<scene::PolygonLight>& lights = polygons.lights;
     const bool are_small = records.polygon_slots == 4;
     checked_count(6 * lights.size() * 8, "coordinates of lights");
     PolygonArrays arrays;
@@ -68,7 +67,6 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
         make_light_array("corners of lights", arrays.corners);
     records.array_at(interface::kPolygonTexturesBinding) =
         make_light_array("textures of lights", arrays.textures);
-    return true;
 }
 
 } // namespace nusselt::render_vulkan

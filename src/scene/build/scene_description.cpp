@@ -11,7 +11,7 @@ namespace nusselt::scene {
 namespace {
 
 /// Enough to keep all threads busy, and so few that their descriptions take little memory.
-constexpr std::size_t kLongRow = 4096;
+constexpr std::size_t kLongRow = 1024;
 
 } // namespace
 

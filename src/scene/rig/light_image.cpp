@@ -166,6 +166,9 @@ std::optional<ProfileDefect> change_image(const GivenImage& given, Scene& scene,
 std::optional<ProfileDefect> turn_map(const Rotation& rotation, EditableLight& light) {
     std::vector<EnvironmentLight>& environments = light.parts.of<EnvironmentLight>();
     if (environments.empty()) return ProfileDefect{"rotate_map", "only environments have a map"};
+    if (std::all_of(environments.begin(), environments.end(),
+                    [](const EnvironmentLight& environment) { return environment.map < 0; }))
+        return ProfileDefect{"rotate_map", "it has no map that could be turned"};
     for (EnvironmentLight& environment : environments) {
         PolygonVertices portal = std::exchange(environment.portal, {});
         LightKind<EnvironmentLight>::transform(environment, scene::rotation(rotation.degrees, rotation.axis));

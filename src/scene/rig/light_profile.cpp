@@ -146,7 +146,10 @@ std::optional<ProfileDefect> change_profile(const GivenProfile& given, Scene& sc
     if (!has_effect(request) && !has_effect(before))
         return ProfileDefect{"ies_degrees", "it has no profile that could be turned"};
     if (!has_effect(request)) {
-        for (LineLight& line : light.parts.of<LineLight>()) line.profile = -1;
+        for (LineLight& line : light.parts.of<LineLight>()) {
+            line.profile = -1;
+            if (line.model != TubeModel::strip) line.normal = {0, 0, 0};
+        }
         for (PolygonLight& polygon : light.parts.of<PolygonLight>()) polygon.profile = -1;
         return std::nullopt;
     }

@@ -256,8 +256,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
         if (defect)
             fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
     };
-    if (changes.map_rotation) check(turn_map(*changes.map_rotation, light));
     check(change_image(changes.image, scene_, light));
+    if (changes.map_rotation) check(turn_map(*changes.map_rotation, light));
     check(change_profile(changes.profile, scene_, light));
     change_emission(entry, light);
     if (changes.two_sided) {
