@@ -9,11 +9,14 @@ import functools
 import json
 import math
 import pathlib
+import sys
 import tempfile
 import unittest
 
-from browser import Browser, Keys
 import sample_report as sample
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "browser"))
+from browser import Browser, Keys
 
 PINK = [255, 20, 147]
 BLUE = [0, 68, 170]

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Each file of a folder of shaders compiles alone and included twice, as GLSL 4.50 for Vulkan and, flattened, as GLSL
-# 4.50 and GLSL ES 3.00, for several capacities of polygons where they matter; so does the example in README.md.
+# 4.50 and GLSL ES 3.00, for several capacities of polygons where they matter; so does the example in README.md. Leaves the shaders in GLSL ES in
+# the subfolder es, for tests/browser.
 # Usage: check_shaders.sh GLSLANG_VALIDATOR SHADERS WORK_FOLDER
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -20,7 +21,7 @@ compile() {
 }
 
 rm -rf "$work"
-mkdir -p "$work"
+mkdir -p "$work/es"
 cmake -D SHADERS="$shaders" -D OUTPUT="$work/flat" -P "$root/scripts/flatten-glsl.cmake"
 files=$(cd "$shaders" && find . -name '*.glsl' -printf '%P\n' | sort)
 [ -n "$files" ] || { echo "no shaders in $shaders"; exit 1; }
@@ -54,8 +55,8 @@ for file in $files; do
             printf '%s\n' '#version 300 es' "#define NUSSELT_MAX_VERTICES $vertices"
             cat "$flat"
             printf '%s\n' "$program" 'void main() {}'
-        } >"$work/flat.frag"
-        compile "$work/flat.frag" "$file as GLSL ES, $vertices vertices"
+        } >"$work/es/$(basename "$file" .glsl)-$vertices.frag"
+        compile "$work/es/$(basename "$file" .glsl)-$vertices.frag" "$file as GLSL ES, $vertices vertices"
     done
 done
 if [ -e "$shaders/README.md" ]; then

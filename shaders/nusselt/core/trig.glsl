@@ -108,7 +108,9 @@ SinCos sincos_half_turn(float angle) {
     pc = nusselt_fma(pc, s, 4.16666468e-2);
     float cosine = nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0));
     if (abs(k - 1.0) < 0.5) return SinCos(cosine, -sine);
-    return k > 1.5 ? SinCos(-sine, -cosine) : SinCos(sine, cosine);
+    // Not `?:`, which WebGL forbids for structures.
+    if (k > 1.5) return SinCos(-sine, -cosine);
+    return SinCos(sine, cosine);
 }
 
 /// Sine and cosine of an angle in [0, pi / 2].

@@ -14,21 +14,26 @@
 #include "../sampling/polygon_projected_solid_angle.glsl"
 
 struct WindowedPolygon {
-    WindowedCells cells;
+    // The fields of WindowedCells, because WebGL forbids structures that are nested more than four deep.
+    WindowedView view;
+    CellSums sums;
 };
+
+WindowedCells windowed_polygon_cells(WindowedPolygon self) { return WindowedCells(self.view, self.sums); }
 
 /// \param plane of the light in shading space [m]: to_shading_space(windowed_light_plane(light), point, frame).
 /// \param light number of the first word of the light (windowed_light.glsl).
 WindowedPolygon windowed_polygon_prepare(WindowPlane plane, uint light) {
-    return WindowedPolygon(windowed_cells_prepare(windowed_view_prepare(plane, light)));
+    WindowedCells cells = windowed_cells_prepare(windowed_view_prepare(plane, light));
+    return WindowedPolygon(cells.view, cells.sums);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].
-float windowed_polygon_measure(WindowedPolygon self) { return windowed_cells_total(self.cells); }
+float windowed_polygon_measure(WindowedPolygon self) { return windowed_cells_total(windowed_polygon_cells(self)); }
 
 /// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
 /// for multiple importance sampling. Colours come from whole texels.
-vec3 windowed_polygon_unshadowed(WindowedPolygon self) { return windowed_cells_unshadowed(self.cells); }
+vec3 windowed_polygon_unshadowed(WindowedPolygon self) { return windowed_cells_unshadowed(windowed_polygon_cells(self)); }
 
 /// \param part of the cell inside of the outline.
 bool windowed_polygon_is_smooth(WindowedView view, ivec2 cell, TexturePart part) {
@@ -48,9 +53,9 @@ PolygonProjectedSolidAngle windowed_polygon_technique(WindowedView view, Texture
 /// \return `at` is the position in the table, from 0 to 1. The point of a portal is only where the ray leaves: shadow
 ///         rays go on along wi to infinity.
 TexturedSample windowed_polygon_sample(WindowedPolygon self, vec2 u) {
-    if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
-    WindowedView view = self.cells.view;
-    CellChoice cell = cell_sums_choose(self.cells.sums, u);
+    if (!(self.sums.total > 0.0)) return no_textured_sample();
+    WindowedView view = self.view;
+    CellChoice cell = cell_sums_choose(self.sums, u);
     TexturePart part = windowed_view_part(view, cell.at);
     if (!windowed_polygon_is_smooth(view, cell.at, part)) return windowed_view_busy_sample(view, cell);
     return windowed_view_smooth_sample(
@@ -59,11 +64,11 @@ TexturedSample windowed_polygon_sample(WindowedPolygon self, vec2 u) {
 
 /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
 float windowed_polygon_pdf(WindowedPolygon self, vec3 wi) {
-    if (!(self.cells.sums.total > 0.0)) return 0.0;
-    WindowedView view = self.cells.view;
+    if (!(self.sums.total > 0.0)) return 0.0;
+    WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
     if (!windowed_view_is_hit(view, wi, at)) return 0.0;
-    CellChoice cell = windowed_cells_cell_at(self.cells, at);
+    CellChoice cell = windowed_cells_cell_at(windowed_polygon_cells(self), at);
     if (!(cell.probability > 0.0)) return 0.0;
     TexturePart part = windowed_view_part(view, cell.at);
     if (!windowed_polygon_is_smooth(view, cell.at, part)) return windowed_view_busy_density(view, cell, wi, at);
@@ -72,11 +77,11 @@ float windowed_polygon_pdf(WindowedPolygon self, vec3 wi) {
 
 /// The random numbers for which the sample is wi, a unit direction with a density.
 vec2 windowed_polygon_invert(WindowedPolygon self, vec3 wi) {
-    if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
-    WindowedView view = self.cells.view;
+    if (!(self.sums.total > 0.0)) return vec2(0.0);
+    WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
     if (!windowed_view_is_hit(view, wi, at)) return vec2(0.0);
-    CellChoice cell = windowed_cells_cell_at(self.cells, at);
+    CellChoice cell = windowed_cells_cell_at(windowed_polygon_cells(self), at);
     TexturePart part = windowed_view_part(view, cell.at);
     vec2 u;
     if (windowed_polygon_is_smooth(view, cell.at, part)) {

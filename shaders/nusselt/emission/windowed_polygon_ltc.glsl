@@ -15,9 +15,13 @@
 #include "../sampling/polygon_ltc.glsl"
 
 struct WindowedPolygonLtc {
-    WindowedCells cells;
+    // The fields of WindowedCells, because WebGL forbids structures that are nested more than four deep.
+    WindowedView view;
+    CellSums sums;
     Ltc ltc;
 };
+
+WindowedCells windowed_polygon_ltc_cells(WindowedPolygonLtc self) { return WindowedCells(self.view, self.sums); }
 
 /// \param plane of the light in shading space [m]: to_shading_space(windowed_light_plane(light), point, frame).
 /// \param light number of the first word of the light (windowed_light.glsl).
@@ -27,36 +31,37 @@ WindowedPolygonLtc windowed_polygon_ltc_prepare(WindowPlane plane, uint light, L
                               ltc_to_cosine(ltc, view.plane.side_y),
                               nusselt_normalize(ltc_normal_to_cosine(ltc, view.plane.normal)));
     view.lowest = -kNusseltLargest;
-    return WindowedPolygonLtc(windowed_cells_prepare(view), ltc);
+    WindowedCells cells = windowed_cells_prepare(view);
+    return WindowedPolygonLtc(cells.view, cells.sums, ltc);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe [W/(sr m^2)].
 float windowed_polygon_ltc_measure(WindowedPolygonLtc self) {
-    return (1.0 / kNusseltPi) * windowed_cells_total(self.cells);
+    return (1.0 / kNusseltPi) * windowed_cells_total(windowed_polygon_ltc_cells(self));
 }
 
 /// See windowed_polygon_unshadowed().
-vec3 windowed_polygon_ltc_unshadowed(WindowedPolygonLtc self) { return windowed_cells_unshadowed(self.cells); }
+vec3 windowed_polygon_ltc_unshadowed(WindowedPolygonLtc self) { return windowed_cells_unshadowed(windowed_polygon_ltc_cells(self)); }
 
 /// \param part of the cell inside of the outline.
 bool windowed_polygon_ltc_is_smooth(WindowedPolygonLtc self, ivec2 cell, TexturePart part) {
     vec3 wi[5];
-    windowed_view_directions(self.cells.view, cell, wi);
+    windowed_view_directions(self.view, cell, wi);
     vec4 corners = vec4(ltc_density(self.ltc, wi[0]), ltc_density(self.ltc, wi[1]), ltc_density(self.ltc, wi[2]),
                         ltc_density(self.ltc, wi[3]));
-    return windowed_view_is_smooth(self.cells.view, cell, part, corners, ltc_density(self.ltc, wi[4]));
+    return windowed_view_is_smooth(self.view, cell, part, corners, ltc_density(self.ltc, wi[4]));
 }
 
 /// The technique inside of a smooth cell.
 PolygonLtc windowed_polygon_ltc_technique(WindowedPolygonLtc self, TexturePart part) {
-    return polygon_ltc_prepare(polygon_in(self.cells.view.plane, part), self.ltc);
+    return polygon_ltc_prepare(polygon_in(self.view.plane, part), self.ltc);
 }
 
 /// \param u in [0, 1)^2; see windowed_polygon_sample().
 TexturedSample windowed_polygon_ltc_sample(WindowedPolygonLtc self, vec2 u) {
-    if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
-    WindowedView view = self.cells.view;
-    CellChoice cell = cell_sums_choose(self.cells.sums, u);
+    if (!(self.sums.total > 0.0)) return no_textured_sample();
+    WindowedView view = self.view;
+    CellChoice cell = cell_sums_choose(self.sums, u);
     TexturePart part = windowed_view_part(view, cell.at);
     if (!windowed_polygon_ltc_is_smooth(self, cell.at, part)) return windowed_view_busy_sample(view, cell);
     return windowed_view_smooth_sample(view, cell,
@@ -65,11 +70,11 @@ TexturedSample windowed_polygon_ltc_sample(WindowedPolygonLtc self, vec2 u) {
 
 /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
 float windowed_polygon_ltc_pdf(WindowedPolygonLtc self, vec3 wi) {
-    if (!(self.cells.sums.total > 0.0)) return 0.0;
-    WindowedView view = self.cells.view;
+    if (!(self.sums.total > 0.0)) return 0.0;
+    WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
     if (!windowed_view_is_hit(view, wi, at)) return 0.0;
-    CellChoice cell = windowed_cells_cell_at(self.cells, at);
+    CellChoice cell = windowed_cells_cell_at(windowed_polygon_ltc_cells(self), at);
     if (!(cell.probability > 0.0)) return 0.0;
     TexturePart part = windowed_view_part(view, cell.at);
     if (!windowed_polygon_ltc_is_smooth(self, cell.at, part)) return windowed_view_busy_density(view, cell, wi, at);
@@ -78,11 +83,11 @@ float windowed_polygon_ltc_pdf(WindowedPolygonLtc self, vec3 wi) {
 
 /// The random numbers for which the sample is wi, a unit direction with a density.
 vec2 windowed_polygon_ltc_invert(WindowedPolygonLtc self, vec3 wi) {
-    if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
-    WindowedView view = self.cells.view;
+    if (!(self.sums.total > 0.0)) return vec2(0.0);
+    WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
     if (!windowed_view_is_hit(view, wi, at)) return vec2(0.0);
-    CellChoice cell = windowed_cells_cell_at(self.cells, at);
+    CellChoice cell = windowed_cells_cell_at(windowed_polygon_ltc_cells(self), at);
     TexturePart part = windowed_view_part(view, cell.at);
     vec2 u;
     if (windowed_polygon_ltc_is_smooth(self, cell.at, part)) {

@@ -8,10 +8,14 @@
 #include "../geometry/convex_polygon.glsl"
 
 /// The plane of a polygon with coordinates of order one and a box around it: where hit points may be.
+/// It has the fields of a LightPlane because WebGL forbids structures that are nested more than four deep.
 struct PolygonHull {
-    LightPlane plane;
-    vec3 low, high; ///< axis-aligned box
+    vec3 normal;
+    float distance, farthest; ///< of the plane
+    vec3 low, high;           ///< axis-aligned box
 };
+
+LightPlane polygon_hull_plane(PolygonHull self) { return LightPlane(self.normal, self.distance, self.farthest); }
 
 /// \param distance of the plane of the polygon from the origin, see plane_distance().
 PolygonHull hull_of(ConvexPolygon polygon, float distance) {
@@ -24,20 +28,20 @@ PolygonHull hull_of(ConvexPolygon polygon, float distance) {
         low = nusselt_min(low, v);
         high = nusselt_max(high, v);
     }
-    return PolygonHull(LightPlane(polygon.normal, distance, sqrt(farthest)), low, high);
+    return PolygonHull(polygon.normal, distance, sqrt(farthest), low, high);
 }
 
 /// The point in a unit direction that hits the polygon. In a direction that is almost in the plane, rounding may move it
 /// anywhere in the box.
 vec3 polygon_hull_point_along(PolygonHull self, vec3 wi) {
-    return nusselt_min(nusselt_max(light_plane_distance_along(self.plane, wi) * wi, self.low), self.high);
+    return nusselt_min(nusselt_max(light_plane_distance_along(polygon_hull_plane(self), wi) * wi, self.low), self.high);
 }
 
 /// Moves a point of the polygon, which rounding may have put before or behind the plane, along the normal to the plane,
 /// then into the box.
 vec3 polygon_hull_moved_to_plane(PolygonHull self, vec3 p) {
-    float off_plane = self.plane.distance - dot(self.plane.normal, p);
-    return nusselt_min(nusselt_max(p + off_plane * self.plane.normal, self.low), self.high);
+    float off_plane = self.distance - dot(self.normal, p);
+    return nusselt_min(nusselt_max(p + off_plane * self.normal, self.low), self.high);
 }
 
 #endif

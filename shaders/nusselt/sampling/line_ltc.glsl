@@ -19,7 +19,10 @@
 
 struct LineLtc {
     Ltc ltc;
-    LineProjectedSolidAngle image; ///< in cosine space
+    // The fields of a LineProjectedSolidAngle in cosine space, because WebGL forbids structures that are nested more than four
+    // deep.
+    CosineArc image_arc;
+    float image_inverse_scale, image_measure, image_inverse_measure;
     // The part of the light that counts, in shading space and scaled to an extent of order one.
     vec3 s;              ///< from the near end to the far one
     vec3 closest;        ///< point of the infinite line
@@ -30,13 +33,21 @@ struct LineLtc {
     float inverse_measure; ///< 0 without light
 };
 
+LineProjectedSolidAngle line_ltc_image(LineLtc self) {
+    return LineProjectedSolidAngle(self.image_arc, self.image_inverse_scale, self.image_measure, self.image_inverse_measure);
+}
+
 /// \param part  the part of the light that counts, scaled.
 /// \param scale by which it is larger than the light.
 LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
     LineLtc self;
     self.lowest = -kNusseltLargest;
     self.ltc = ltc;
-    self.image = line_projected_solid_angle_prepare(to_cosine_space(part, ltc));
+    LineProjectedSolidAngle image = line_projected_solid_angle_prepare(to_cosine_space(part, ltc));
+    self.image_arc = image.arc;
+    self.image_inverse_scale = image.inverse_scale;
+    self.image_measure = image.measure;
+    self.image_inverse_measure = image.inverse_measure;
     self.inverse_scale = reciprocal_power_of_two(scale);
     CenteredLine line = centered(part);
     self.s = line.inward;
@@ -45,7 +56,7 @@ LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
     self.l1 = line.far_l;
     // The reciprocal of what the density of directions on the image is divided by.
     float ratio = kNusseltPi * radius_ratio(nusselt_cross(part.p0, part.s), ltc);
-    float in_lobe = line_projected_solid_angle_measure(self.image);
+    float in_lobe = line_projected_solid_angle_measure(image);
     bool seen = line.len > 0.0 && in_lobe > 0.0 && ratio > 0.0;
     float measure = in_lobe / (seen ? ratio : 1.0) * scale;
     float inverse_measure = ratio / (seen ? in_lobe : 1.0) * self.inverse_scale;
@@ -81,7 +92,7 @@ float line_ltc_pdf(LineLtc self, vec3 wi) {
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
 LightSample line_ltc_sample(LineLtc self, float u) {
     // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
-    vec3 image = line_projected_solid_angle_sample(self.image, u).p;
+    vec3 image = line_projected_solid_angle_sample(line_ltc_image(self), u).p;
     float along = dot(ltc_to_shading(self.ltc, image), self.s) / self.ltc.minor;
     vec3 p = exact_fma(nusselt_min(nusselt_max(along, self.l0), self.l1), self.s, self.closest);
     p.z = nusselt_max(p.z, self.lowest);
@@ -91,7 +102,7 @@ LightSample line_ltc_sample(LineLtc self, float u) {
 
 /// The random number for which the sample is wi, a unit direction on the light.
 float line_ltc_invert(LineLtc self, vec3 wi) {
-    return line_projected_solid_angle_invert(self.image, nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
+    return line_projected_solid_angle_invert(line_ltc_image(self), nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
 }
 
 #endif

@@ -31,15 +31,15 @@ PolygonBrdf polygon_brdf_prepare(ConvexPolygon light, GgxVisibleNormals lobe) {
     PolygonPart whole = whole_part(light);
     self.hull = hull_of(whole.polygon, whole.plane_distance);
     self.inverse_scale = whole.inverse_scale;
-    self.present = self.hull.plane.distance != 0.0;
-    float orientation = copysign(1.0, self.hull.plane.distance);
+    self.present = self.hull.distance != 0.0;
+    float orientation = copysign(1.0, self.hull.distance);
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j)
         self.side[j] = orientation * nusselt_cross(whole.polygon.vertex[j], whole.polygon.edge[j]);
     return self;
 }
 
 bool polygon_brdf_is_towards_light(PolygonBrdf self, vec3 wi) {
-    bool inside = dot(self.hull.plane.normal, wi) * self.hull.plane.distance > 0.0;
+    bool inside = dot(self.hull.normal, wi) * self.hull.distance > 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) inside = inside && dot(self.side[j], wi) >= 0.0;
     return inside;
 }
@@ -54,7 +54,7 @@ float polygon_brdf_pdf(PolygonBrdf self, vec3 wi) {
 LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
     vec3 wi = ggx_visible_normals_sample(self.lobe, u);
     float density = polygon_brdf_is_towards_light(self, wi) ? polygon_brdf_pdf(self, wi) : 0.0;
-    vec3 p = light_plane_distance_along(self.hull.plane, wi) * wi;
+    vec3 p = light_plane_distance_along(polygon_hull_plane(self.hull), wi) * wi;
     return LightSample(wi, density, self.inverse_scale * polygon_hull_moved_to_plane(self.hull, p));
 }
 

@@ -39,7 +39,7 @@ PolygonLtc polygon_ltc_prepare_image(PolygonPart part, Ltc ltc, PolygonProjected
     self.inverse_minor = 1.0 / ltc.minor;
     self.hull = hull_of(part.polygon, part.plane_distance);
     float in_lobe = polygon_projected_solid_angle_measure(self.image);
-    bool lit = in_lobe > 0.0 && self.hull.plane.distance != 0.0;
+    bool lit = in_lobe > 0.0 && self.hull.distance != 0.0;
     self.measure = lit ? (1.0 / kNusseltPi) * in_lobe : 0.0;
     self.inverse_measure = lit ? 1.0 / self.measure : 0.0;
     return self;
@@ -82,7 +82,7 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
     vec3 wi = dark ? vec3(0.0, 0.0, 1.0) : direction;
     vec3 p = polygon_hull_point_along(self.hull, wi);
     // From 2^-7 on, rounding of the direction moves the point by at most 128 roundings of its distance.
-    bool apart = abs(self.hull.plane.distance) > 0.0078125 * self.hull.plane.farthest;
+    bool apart = abs(self.hull.distance) > 0.0078125 * self.hull.farthest;
     bool reached = self.measure > kNusseltEpsilon;
     if (!(apart && reached)) {
         // A direction that is almost in the plane does not tell where it meets the light. The point on the image does.
@@ -93,10 +93,10 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
         // the light, the more often. A direction may pass its point by 48 roundings of the farthest vertex over the squared
         // sine of its angle with the plane.
         vec3 beside = nusselt_cross(direction, on_light);
-        float to_plane = dot(self.hull.plane.normal, direction);
-        float squared_sine = nusselt_min(to_plane * to_plane, self.hull.plane.distance * self.hull.plane.distance /
+        float to_plane = dot(self.hull.normal, direction);
+        float squared_sine = nusselt_min(to_plane * to_plane, self.hull.distance * self.hull.distance /
                                                                   nusselt_max(dot(on_light, on_light), kNusseltTiny));
-        float largest = 48.0 * kNusseltEpsilon * self.hull.plane.farthest;
+        float largest = 48.0 * kNusseltEpsilon * self.hull.farthest;
         bool ahead = dot(direction, on_light) >= 0.0;
         bool close = squared_sine * squared_sine * dot(beside, beside) <= largest * largest;
         bool sound = (ahead && close) || (reached && apart);

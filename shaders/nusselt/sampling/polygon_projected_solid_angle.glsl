@@ -114,7 +114,7 @@ void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAn
 
 /// Each part of an azimuth between two vertices has a sector.
 void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolidAngle self, ConvexPolygon polygon) {
-    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.plane.distance);
+    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
@@ -172,7 +172,7 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_end(PolygonProjectedSol
 PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
-    if (self.hull.plane.distance != 0.0) {
+    if (self.hull.distance != 0.0) {
         if (self.central) {
             polygon_projected_solid_angle_prepare_central(self, polygon);
         } else {
@@ -274,9 +274,9 @@ LightSample polygon_projected_solid_angle_sample_at(PolygonProjectedSolidAngle s
                                                     float x, float u) {
     LightSample result;
     if (self.central) {
-        result = polygon_projected_solid_angle_sample_central(self.hull.plane, s, u);
+        result = polygon_projected_solid_angle_sample_central(polygon_hull_plane(self.hull), s, u);
     } else {
-        result = polygon_projected_solid_angle_sample_decentral(self.hull.plane, s.sector, x, u);
+        result = polygon_projected_solid_angle_sample_decentral(polygon_hull_plane(self.hull), s.sector, x, u);
     }
     return polygon_projected_solid_angle_finish(self, result);
 }

@@ -25,7 +25,7 @@ void polygon_projected_solid_angle_biased_prepare_central(inout PolygonProjected
 
 void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProjectedSolidAngle self,
                                                             ConvexPolygon polygon) {
-    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.plane.distance);
+    AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
         if (azimuthal_sweep_advance(sweep, k + 1, sector))
@@ -39,7 +39,7 @@ void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProject
 PolygonProjectedSolidAngleBiased polygon_projected_solid_angle_biased_prepare(ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
-    if (self.hull.plane.distance != 0.0) {
+    if (self.hull.distance != 0.0) {
         if (self.central) {
             polygon_projected_solid_angle_biased_prepare_central(self, polygon);
         } else {

@@ -1,4 +1,4 @@
-"""A browser without a window, for tests of the page of reports. Needs chromium, chromium-driver and python3-selenium."""
+"""A browser without a window, for tests. Needs chromium, chromium-driver and python3-selenium."""
 import os
 import shutil
 import sys
@@ -8,7 +8,7 @@ SKIPPED = 77
 
 def unavailable(reason):
     """Continuous integration must not pass without the tests."""
-    print(f"page_test: {reason}", file=sys.stderr)
+    print(f"{os.path.basename(sys.argv[0])}: {reason}", file=sys.stderr)
     sys.exit(1 if os.environ.get("CI") == "true" else SKIPPED)
 
 
@@ -52,16 +52,20 @@ image.src = "data:image/png;base64," + data;
 """
 
 
+# WebGL on the processor.
+WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+
 class Browser:
     """One for all screens: to start it takes seconds."""
 
-    def __init__(self):
+    def __init__(self, graphics=("--disable-gpu",)):
         chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not chromium or not driver:
             unavailable("chromium or chromium-driver is missing")
         options = webdriver.ChromeOptions()
         options.binary_location = chromium
-        for argument in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--force-color-profile=srgb",
+        for argument in ("--headless=new", *graphics, "--disable-dev-shm-usage", "--force-color-profile=srgb",
                          "--disable-frame-rate-limit", "--disable-gpu-vsync"):  # nobody watches: no need to wait for frames
             options.add_argument(argument)
         if os.geteuid() == 0:  # where the sandbox does not start
