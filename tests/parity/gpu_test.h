@@ -23,6 +23,28 @@ inline bool needs_device() {
            !value("NUSSELT_EXPECT_DRIVER").empty();
 }
 
+/// The device of all tests of a process: it keeps the shaders that drivers compiled, which takes longer than most tests.
+class SharedDevice : public testing::Environment {
+public:
+    /// Created at the first call.
+    const gpu::Device& get() {
+        if (!device_) device_.emplace(gpu::DeviceOptions{.validation = gpu::Validation::on});
+        return *device_;
+    }
+
+    void TearDown() override { device_.reset(); }
+
+private:
+    std::optional<gpu::Device> device_;
+};
+
+/// GoogleTest owns it.
+inline SharedDevice* const shared_device = [] {
+    auto* const shared = new SharedDevice;
+    testing::AddGlobalTestEnvironment(shared);
+    return shared;
+}();
+
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -30,7 +52,7 @@ protected:
             if (needs_device()) FAIL() << *reason;
             GTEST_SKIP() << *reason;
         }
-        device_.emplace(gpu::DeviceOptions{.validation = gpu::Validation::on});
+        device_ = &shared_device->get();
         const std::string driver = device().description().driver;
         if (const char* expected = std::getenv("NUSSELT_EXPECT_DRIVER")) {
             ASSERT_NE(driver.find(expected), std::string::npos) << driver << " is not " << expected;
@@ -45,7 +67,7 @@ protected:
     const gpu::Device& device() const { return *device_; }
 
 private:
-    std::optional<gpu::Device> device_;
+    const gpu::Device* device_ = nullptr;
 };
 
 } // namespace nusselt::parity
