@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the pictures that lights of the scenes emit: scenes/pictures/television.png and window.png.
+"""Writes the pictures that lights of the scenes emit: television.png and window.png, and rainbow.png, blade.png and
+beads.png, which have a row for each part of a tube, the lowest one for its start.
 
 Usage: scripts/make-pictures.py [FOLDER]     FOLDER: default scenes/pictures
 The same pixels on every machine: all random numbers come from a generator of its own.
@@ -112,10 +113,47 @@ def window():
     return png(width, height, colour)
 
 
+def tube(colour):
+    """\\param colour function of the place along the tube, from 0 to 1"""
+    rows = 64
+    return png(1, rows, lambda i, j: colour(1 - (j + 0.5) / rows))
+
+
+def rainbow():
+    """From violet to red."""
+    stops = [(0.3, 0, 1), (0.02, 0.12, 1), (0, 0.65, 0.6), (0.1, 0.8, 0.05), (0.9, 0.55, 0), (1, 0.15, 0), (1, 0, 0.12)]
+
+    def colour(x):
+        place = x * (len(stops) - 1)
+        k = min(int(place), len(stops) - 2)
+        return mix(stops[k], stops[k + 1], smoothstep(0, 1, place - k))
+
+    return tube(colour)
+
+
+def blade():
+    """Bright at its start, dark red at its end."""
+    return tube(lambda x: mix((1, 0.22, 0.015), (0.25, 0, 0.04), smoothstep(0, 0.75, x)))
+
+
+def beads():
+    """Seven beads of light, each in its own mixture of blue and green."""
+
+    def colour(x):
+        k = min(int(7 * x), 6)
+        inside = smoothstep(0.36, 0.2, abs(7 * x - k - 0.5))
+        return mix((0, 0.002, 0.01), mix((0, 0.12, 1), (0.02, 0.9, 0.4), k / 6), inside)
+
+    return tube(colour)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "scenes/pictures")
     (folder / "television.png").write_bytes(television())
     (folder / "window.png").write_bytes(window())
+    (folder / "rainbow.png").write_bytes(rainbow())
+    (folder / "blade.png").write_bytes(blade())
+    (folder / "beads.png").write_bytes(beads())
 
 
 if __name__ == "__main__":

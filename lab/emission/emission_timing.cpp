@@ -66,17 +66,22 @@ void time_once(const Run& run, const EmissionViews& views, std::vector<double>& 
 } // namespace
 
 std::vector<EmissionCost> time_emission(int repetitions, base::Isa isa) {
-    const EmissionTechniques techniques =
-        base::dispatch(isa, []<base::Isa chosen> { return emission_techniques<chosen>(); });
+    const EmissionGroups groups =
+        base::dispatch(isa, []<base::Isa chosen> { return emission_groups<chosen>(); });
+    std::vector<const EmissionTechnique*> techniques;
+    std::vector<std::size_t> uniform;
+    for (int g = 0; g < groups.count; ++g) {
+        uniform.resize(uniform.size() + static_cast<std::size_t>(groups.first[g].count), techniques.size());
+        for (int i = 0; i < groups.first[g].count; ++i) techniques.push_back(groups.first[g].first + i);
+    }
     const EmissionViews views = make_views();
-    std::vector<Series> series(static_cast<std::size_t>(techniques.count));
+    std::vector<Series> series(techniques.size());
     for (int k = -1; k < repetitions; ++k) {
         for (std::size_t i = 0; i < series.size(); ++i) {
-            const EmissionTechnique& technique = techniques.first[i];
-            time_once(technique.prepare, views, series[i].prepare);
-            time_once(technique.sample_once, views, series[i].first_sample);
-            time_once(technique.sample_often, views, series[i].samples);
-            time_once(technique.ask_density, views, series[i].density);
+            time_once(techniques[i]->prepare, views, series[i].prepare);
+            time_once(techniques[i]->sample_once, views, series[i].first_sample);
+            time_once(techniques[i]->sample_often, views, series[i].samples);
+            time_once(techniques[i]->ask_density, views, series[i].density);
         }
         // The first round makes the lights.
         if (k < 0) std::fill(series.begin(), series.end(), Series());
@@ -85,7 +90,7 @@ std::vector<EmissionCost> time_emission(int repetitions, base::Isa isa) {
     for (std::size_t i = 0; i < series.size(); ++i) {
         const double prepare = proof::median(series[i].prepare);
         const double first = proof::median(series[i].first_sample);
-        costs.push_back({techniques.first[i].name, prepare, first,
+        costs.push_back({techniques[i]->name, uniform[i], prepare, first,
                          (proof::median(series[i].samples) - first) / (kEmissionSamples - 1),
                          proof::median(series[i].density) - prepare});
     }

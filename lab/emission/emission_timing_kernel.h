@@ -25,12 +25,19 @@ struct EmissionTechnique {
     float (*ask_density)(const EmissionViews&);  ///< prepare and ask for the density in one direction
 };
 
-struct EmissionTechniques {
+/// Techniques for lights of one shape in one type of numbers. The first one ignores how emission varies: costs of the others
+/// are compared to its own.
+struct EmissionGroup {
     const EmissionTechnique* first;
     int count;
 };
 
+struct EmissionGroups {
+    const EmissionGroup* first;
+    int count;
+};
+
 template <base::Isa>
-EmissionTechniques emission_techniques();
+EmissionGroups emission_groups();
 
 } // namespace nusselt::lab

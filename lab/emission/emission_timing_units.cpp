@@ -5,10 +5,13 @@
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/textured_polygon.h>
 #include <nusselt/emission/windowed_polygon.h>
+#include <nusselt/line_emission/textured_line.h>
+#include <nusselt/line_emission/textured_tube.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace emission_timing {
 
+using lab::EmissionGroup;
 using lab::EmissionTechnique;
 using lab::EmissionViews;
 using lab::kEmissionSamples;
@@ -132,53 +135,136 @@ inline const WindowedLight<float>& portal() {
     return light;
 }
 
-// How each technique is made for a shading point, or for a pack of them.
+/// Radiance along a line.
+template <class Texture, int n>
+const LineProfile<float>& line_profile() {
+    static const LineProfile<float> profile = [] {
+        Vec3<float> texels[n];
+        for (int k = 0; k < n; ++k) texels[k] = Texture::at(k * (256 / n), 0);
+        return make_line_profile(texels, n);
+    }();
+    return profile;
+}
+
+// How each technique is made for a shading point, or for a pack of them; a direction to its light; its random numbers.
 
 using Packed = Pack<float, kNativeLanes<float>>;
 
 template <class Number>
-struct Uniform {
+struct OnSquare {
     using Real = Number;
-    static PolygonProjectedSolidAngle<Real, 4> make(const EmissionViews& views, int i) {
-        return PolygonProjectedSolidAngle<Real, 4>(
-            rectangle_in<Real>(plane_of<Real>(views, i), {Real(0), Real(0)}, {Real(1), Real(1)}));
+    static Vec3<Real> to_light(const EmissionViews& views, int i) {
+        return plane_of<Real>(views, i).point_at(random_of<Real>(views, i, 0));
+    }
+    static Vec2<Real> random(const EmissionViews& views, int i, int k) {
+        return random_of<Real>(views, i, k);
+    }
+};
+template <class Number>
+struct Uniform : OnSquare<Number> {
+    static PolygonProjectedSolidAngle<Number, 4> make(const EmissionViews& views, int i) {
+        return PolygonProjectedSolidAngle<Number, 4>(
+            rectangle_in<Number>(plane_of<Number>(views, i), {Number(0), Number(0)}, {Number(1), Number(1)}));
     }
 };
 template <class Number, class Texture, int n, class Descent = DescentByRadiance>
-struct Textured {
-    using Real = Number;
-    static TexturedPolygon<Real, n, Descent> make(const EmissionViews& views, int i) {
-        return {plane_of<Real>(views, i), textured_light<Texture, n>()};
+struct Textured : OnSquare<Number> {
+    static TexturedPolygon<Number, n, Descent> make(const EmissionViews& views, int i) {
+        return {plane_of<Number>(views, i), textured_light<Texture, n>()};
     }
 };
 template <class Number, class Texture, int n>
-struct TexturedLobe {
-    using Real = Number;
-    static TexturedPolygonLtc<Real, n> make(const EmissionViews& views, int i) {
-        return {plane_of<Real>(views, i), textured_light<Texture, n>(), {lobe<Real>()}};
+struct TexturedLobe : OnSquare<Number> {
+    static TexturedPolygonLtc<Number, n> make(const EmissionViews& views, int i) {
+        return {plane_of<Number>(views, i), textured_light<Texture, n>(), {lobe<Number>()}};
     }
 };
 template <class Number, int n>
-struct Environment {
-    using Real = Number;
-    static EnvironmentCosine<Real, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of<Real>(views, i)};
+struct Environment : OnSquare<Number> {
+    static EnvironmentCosine<Number, n> make(const EmissionViews& views, int i) {
+        return {environment<n>(), frame_of<Number>(views, i)};
     }
 };
 template <class Number, int n>
-struct EnvironmentLobe {
-    using Real = Number;
-    static EnvironmentLtc<Real, n> make(const EmissionViews& views, int i) {
-        return {environment<n>(), frame_of<Real>(views, i), {lobe<Real>()}};
+struct EnvironmentLobe : OnSquare<Number> {
+    static EnvironmentLtc<Number, n> make(const EmissionViews& views, int i) {
+        return {environment<n>(), frame_of<Number>(views, i), {lobe<Number>()}};
     }
 };
 template <int n>
-struct Portal {
-    using Real = float;
+struct Portal : OnSquare<float> {
     static WindowedPolygon<float, n> make(const EmissionViews& views, int i) {
         return {
             to_shading_space(portal().plane, vector_of<float>(views.position, i), frame_of<float>(views, i)),
             portal()};
+    }
+};
+
+/// The line in the middle of the square.
+template <class Real>
+LineSegment<Real> line_of(const EmissionViews& views, int i) {
+    const LineSegment<float> line{{0, 0.5f, 0}, {1, 0, 0}, 1};
+    return to_shading_space(line, vector_of<Real>(views.position, i), frame_of<Real>(views, i));
+}
+template <class Number>
+struct OnLine {
+    using Real = Number;
+    static Vec3<Real> to_light(const EmissionViews& views, int i) {
+        const LineSegment<Real> line = line_of<Real>(views, i);
+        return fma(random(views, i, 0) * line.length, line.s, line.p0);
+    }
+    static Real random(const EmissionViews& views, int i, int k) { return random_of<Real>(views, i, k).x; }
+};
+template <class Number>
+struct UniformLine : OnLine<Number> {
+    static LineProjectedSolidAngle<Number> make(const EmissionViews& views, int i) {
+        return LineProjectedSolidAngle<Number>(line_of<Number>(views, i));
+    }
+};
+template <class Number, int n>
+struct TexturedLines : OnLine<Number> {
+    static TexturedLine<Number> make(const EmissionViews& views, int i) {
+        return {line_of<Number>(views, i), line_profile<Busy, n>()};
+    }
+};
+template <class Number, int n>
+struct TexturedLineLobe : OnLine<Number> {
+    static TexturedLineLtc<Number> make(const EmissionViews& views, int i) {
+        return {line_of<Number>(views, i), line_profile<Busy, n>(), {lobe<Number>()}};
+    }
+};
+
+template <class Real>
+Cylinder<Real> tube_of(const EmissionViews& views, int i) {
+    return {line_of<Real>(views, i), Real(0.02f)};
+}
+template <class Number>
+struct OnTube {
+    using Real = Number;
+    static Vec3<Real> to_light(const EmissionViews& views, int i) { return OnLine<Real>::to_light(views, i); }
+    static Vec2<Real> random(const EmissionViews& views, int i, int k) {
+        return random_of<Real>(views, i, k);
+    }
+};
+template <class Number>
+struct UniformTube : OnTube<Number> {
+    static CylinderProjectedSolidAngle<Number> make(const EmissionViews& views, int i) {
+        return CylinderProjectedSolidAngle<Number>(tube_of<Number>(views, i));
+    }
+};
+template <class Number>
+struct UniformTubeLobe : OnTube<Number> {
+    static CylinderLtc<Number> make(const EmissionViews& views, int i) {
+        return CylinderLtc<Number>(tube_of<Number>(views, i), lobe<Number>());
+    }
+};
+template <class Uniform, int n>
+struct TexturedTubes : OnTube<typename Uniform::Real> {
+    using Real = typename Uniform::Real;
+    static auto make(const EmissionViews& views, int i) {
+        const auto uniform = Uniform::make(views, i);
+        return TexturedTube<Real, std::remove_const_t<decltype(uniform)>>(uniform, tube_of<Real>(views, i),
+                                                                          line_profile<Busy, n>());
     }
 };
 
@@ -198,7 +284,7 @@ float sample(const EmissionViews& views) {
     for (int i = 0; i < kEmissionViews; i += kStep<Maker>) {
         const auto technique = Maker::make(views, i);
         for (int k = 0; k < count; ++k) {
-            const auto s = technique.sample(random_of<typename Maker::Real>(views, i, k));
+            const auto s = technique.sample(Maker::random(views, i, k));
             sum += s.pdf + s.wi.z;
         }
     }
@@ -207,12 +293,9 @@ float sample(const EmissionViews& views) {
 
 template <class Maker>
 float ask_density(const EmissionViews& views) {
-    using Real = typename Maker::Real;
-    Real sum = 0;
-    for (int i = 0; i < kEmissionViews; i += kStep<Maker>) {
-        const TexturePlane<Real> plane = plane_of<Real>(views, i);
-        sum += Maker::make(views, i).pdf(normalize(plane.point_at(random_of<Real>(views, i, 0))));
-    }
+    typename Maker::Real sum = 0;
+    for (int i = 0; i < kEmissionViews; i += kStep<Maker>)
+        sum += Maker::make(views, i).pdf(normalize(Maker::to_light(views, i)));
     return sum_of(sum);
 }
 
@@ -221,7 +304,7 @@ constexpr EmissionTechnique row(const char* name) {
     return {name, &prepare<Maker>, &sample<Maker, 1>, &sample<Maker, kEmissionSamples>, &ask_density<Maker>};
 }
 
-inline constexpr EmissionTechnique kTechniques[] = {
+inline constexpr EmissionTechnique kPolygons[] = {
     row<Uniform<float>>("projected solid angle"),
     row<Textured<float, Busy, 16>>("texture, 16 x 16, busy"),
     row<Textured<float, Smooth, 16>>("texture, 16 x 16, smooth"),
@@ -229,21 +312,56 @@ inline constexpr EmissionTechnique kTechniques[] = {
     row<Textured<float, Busy, 8, DescentByProduct>>("texture, 8 x 8, busy, product"),
     row<Textured<float, Smooth, 8>>("texture, 8 x 8, smooth"),
     row<TexturedLobe<float, Busy, 8>>("texture, 8 x 8, busy, lobe"),
+    row<Environment<float, 16>>("environment, 16 x 16"),
+    row<Environment<float, 8>>("environment, 8 x 8"),
+    row<EnvironmentLobe<float, 8>>("environment, 8 x 8, lobe"),
+    row<Portal<8>>("portal, 8 x 8"),
+    row<Portal<4>>("portal, 4 x 4"),
+};
+inline constexpr EmissionTechnique kPolygonPacks[] = {
     row<Uniform<Packed>>("packs: projected solid angle"),
     row<Textured<Packed, Busy, 16>>("packs: texture, 16 x 16, busy"),
     row<Textured<Packed, Busy, 8>>("packs: texture, 8 x 8, busy"),
     row<Textured<Packed, Busy, 8, DescentByProduct>>("packs: texture, 8 x 8, busy, product"),
     row<Textured<Packed, Smooth, 8>>("packs: texture, 8 x 8, smooth"),
     row<TexturedLobe<Packed, Busy, 8>>("packs: texture, 8 x 8, busy, lobe"),
-    row<Environment<float, 16>>("environment, 16 x 16"),
-    row<Environment<float, 8>>("environment, 8 x 8"),
-    row<EnvironmentLobe<float, 8>>("environment, 8 x 8, lobe"),
     row<Environment<Packed, 16>>("packs: environment, 16 x 16"),
     row<Environment<Packed, 8>>("packs: environment, 8 x 8"),
     row<EnvironmentLobe<Packed, 8>>("packs: environment, 8 x 8, lobe"),
-    row<Portal<8>>("portal, 8 x 8"),
-    row<Portal<4>>("portal, 4 x 4"),
 };
+inline constexpr EmissionTechnique kLines[] = {
+    row<UniformLine<float>>("line: projected solid angle"),
+    row<TexturedLines<float, 4>>("line: 4 texels"),
+    row<TexturedLines<float, 64>>("line: 64 texels"),
+    row<TexturedLineLobe<float, 4>>("line: 4 texels, lobe"),
+    row<TexturedLineLobe<float, 64>>("line: 64 texels, lobe"),
+};
+inline constexpr EmissionTechnique kLinePacks[] = {
+    row<UniformLine<Packed>>("packs: line: projected solid angle"),
+    row<TexturedLines<Packed, 4>>("packs: line: 4 texels"),
+    row<TexturedLines<Packed, 64>>("packs: line: 64 texels"),
+    row<TexturedLineLobe<Packed, 4>>("packs: line: 4 texels, lobe"),
+    row<TexturedLineLobe<Packed, 64>>("packs: line: 64 texels, lobe"),
+};
+inline constexpr EmissionTechnique kTubes[] = {
+    row<UniformTube<float>>("tube: projected solid angle"),
+    row<TexturedTubes<UniformTube<float>, 64>>("tube: 64 texels"),
+    row<UniformTubeLobe<float>>("tube: lobe"),
+    row<TexturedTubes<UniformTubeLobe<float>, 64>>("tube: 64 texels, lobe"),
+};
+inline constexpr EmissionTechnique kTubePacks[] = {
+    row<UniformTube<Packed>>("packs: tube: projected solid angle"),
+    row<TexturedTubes<UniformTube<Packed>, 64>>("packs: tube: 64 texels"),
+    row<UniformTubeLobe<Packed>>("packs: tube: lobe"),
+    row<TexturedTubes<UniformTubeLobe<Packed>, 64>>("packs: tube: 64 texels, lobe"),
+};
+
+template <int n>
+constexpr EmissionGroup group(const EmissionTechnique (&rows)[n]) {
+    return {rows, n};
+}
+inline constexpr EmissionGroup kGroups[] = {group(kPolygons),  group(kPolygonPacks), group(kLines),
+                                            group(kLinePacks), group(kTubes),        group(kTubePacks)};
 
 } // namespace emission_timing
 NUSSELT_NAMESPACE_END
@@ -251,9 +369,9 @@ NUSSELT_NAMESPACE_END
 namespace nusselt::lab {
 
 template <>
-EmissionTechniques emission_techniques<base::Isa::NUSSELT_UNIT_ISA>() {
-    using emission_timing::kTechniques;
-    return {kTechniques, static_cast<int>(sizeof kTechniques / sizeof kTechniques[0])};
+EmissionGroups emission_groups<base::Isa::NUSSELT_UNIT_ISA>() {
+    using emission_timing::kGroups;
+    return {kGroups, static_cast<int>(sizeof kGroups / sizeof kGroups[0])};
 }
 
 } // namespace nusselt::lab

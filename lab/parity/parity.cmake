@@ -1,7 +1,10 @@
 # Parity of GLSL and C++ on a device: `nusselt-lab parity` and the tests run these comparisons. A library of its own, because
 # it takes long to compile and nothing else of the laboratory needs it.
 add_library(nusselt_lab_parity STATIC
-    parity/environment_parity.cpp
+    parity/emission/environment_parity.cpp
+    parity/emission/textured_line_parity.cpp
+    parity/emission/textured_parity.cpp
+    parity/emission/windowed_parity.cpp
     parity/groups/estimate_groups.cpp
     parity/groups/function_groups.cpp
     parity/groups/ltc_groups.cpp
@@ -10,11 +13,8 @@ add_library(nusselt_lab_parity STATIC
     parity/parity_check.cpp
     parity/shader_runner.cpp
     parity/techniques.cpp
-    parity/textured_line_parity.cpp
-    parity/textured_parity.cpp
     parity/twin_shader.cpp
-    parity/vertex_bounds.cpp
-    parity/windowed_parity.cpp)
+    parity/vertex_bounds.cpp)
 # Most of the time is spent on reading headers and instantiating templates.
 target_compile_options(nusselt_lab_parity PRIVATE -O1)
 # Compiling this unit takes 58 s instead of 95 s, and its tests, which take less than that, become a little slower only.

@@ -1,7 +1,7 @@
 // The parity tests must reject wrong techniques for environment maps.
 
 #include "gpu_test.h"
-#include "lab/parity/environment_parity.h"
+#include "lab/parity/emission/environment_parity.h"
 #include "shaders/open_seams.h"
 #include "shaders/sharp_horizon.h"
 

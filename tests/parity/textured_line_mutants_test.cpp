@@ -1,7 +1,7 @@
 // The parity tests must reject wrong techniques for lines and tubes whose radiance varies along them.
 
 #include "gpu_test.h"
-#include "lab/parity/textured_line_parity.h"
+#include "lab/parity/emission/textured_line_parity.h"
 #include "shaders/shifted_cells.h"
 #include "shaders/stepped_profile.h"
 

@@ -1,7 +1,7 @@
 // The parity tests must reject wrong techniques for polygons with textures.
 
 #include "gpu_test.h"
-#include "lab/parity/textured_parity.h"
+#include "lab/parity/emission/textured_parity.h"
 #include "shaders/flat_descent.h"
 #include "shaders/open_cells.h"
 

@@ -1,7 +1,7 @@
 // The parity tests must reject wrong techniques for polygons whose radiance depends on the direction.
 
 #include "gpu_test.h"
-#include "lab/parity/windowed_parity.h"
+#include "lab/parity/emission/windowed_parity.h"
 #include "shaders/flat_texels.h"
 #include "shaders/lost_borrow.h"
 

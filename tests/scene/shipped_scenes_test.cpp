@@ -184,6 +184,25 @@ TEST(ShippedScenes, Street) {
     EXPECT_EQ(luminaires, 5u);
 }
 
+TEST(ShippedScenes, Neon) {
+    const Scene scene = shipped("neon.pbrt");
+    expect_facing(scene, 0, 12, to_double(scene.camera.origin));
+    const std::vector<LineLight>& tubes = scene.lights.of<LineLight>();
+    ASSERT_EQ(tubes.size(), 9u);
+    for (const LineLight& tube : tubes) {
+        ASSERT_GE(tube.texture, 0);
+        EXPECT_EQ(scene.emission_textures[static_cast<std::size_t>(tube.texture)].texture->height,
+                  kMaxLineTexels);
+        for (const Float3& end : {tube.start, tube.end}) {
+            EXPECT_TRUE(std::fabs(end.x) < 3 - tube.radius && end.z > -2.2f + tube.radius && end.z < 5);
+            EXPECT_TRUE(end.y > tube.radius && end.y < 3 - tube.radius);
+        }
+    }
+    // The colours of the sign go on from stroke to stroke.
+    EXPECT_LT(length(to_double(tubes[0].end) - to_double(tubes[1].end)), 0.1);
+    EXPECT_LT(length(to_double(tubes[1].start) - to_double(tubes[2].start)), 0.1);
+}
+
 /// The portal is the hole in the wall, and nothing else of the room is open.
 TEST(ShippedScenes, Window) {
     const Scene scene = shipped("window.pbrt");

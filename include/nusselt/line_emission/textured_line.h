@@ -104,9 +104,11 @@ public:
             const L high = Lanes::load_shared(profile.border + first + 1);
             const L begin = min(max(low, L(lit_.begin)), high);
             const L end = max(min(high, L(lit_.end)), begin);
-            const L share =
+            const L unlimited =
                 L(scale) * projected_solid_angle(LineSegment<L>{fma(L(image.length) * begin, s, p0), s,
                                                                 L(image.length) * (end - begin)});
+            // Those of denormal lines may overflow, and black cells must not turn that into NaN.
+            const L share = min(max(unlimited, L(T(0))), L(kLargest));
             // Interpolation at both ends, which takes half of what lies within.
             const L width = select(high > low, high - low, L(T(1)));
             const L last = L(T(0.5)) * ((begin - low) + (end - low)) / width;
@@ -118,20 +120,18 @@ public:
             expected.y += share * mean(profile.radiance[1]);
             expected.z += share * mean(profile.radiance[2]);
             alignas(Real) T weights[Lanes::kCount * Lanes::kPoints];
-            Lanes::store(weights, max(share * mean(profile.value), L(T(0))));
+            Lanes::store(weights, share * mean(profile.value));
             for (int i = 0; i < Lanes::kCount; ++i) {
                 total += detail::load_lanes<Real>(weights + Lanes::kPoints * i);
                 detail::store_lanes<Real>(sum_ + Lanes::kPoints * (first + i + 1), total);
             }
         }
         const Mask lit = (total > Real(0)) & is_finite(total);
-        const Vec3<Real> dark{Real(0), Real(0), Real(0)};
         total_ = select(lit, total, Real(0));
-        unshadowed_ =
-            select(lit,
-                   Real(Measure::kIntegral) *
-                       Vec3<Real>{Lanes::sum(expected.x), Lanes::sum(expected.y), Lanes::sum(expected.z)},
-                   dark);
+        const auto coefficient = [&](const L& sums) {
+            return select(lit, min(Real(Measure::kIntegral) * Lanes::sum(sums), Real(kLargest)), Real(0));
+        };
+        unshadowed_ = {coefficient(expected.x), coefficient(expected.y), coefficient(expected.z)};
     }
 
     /// \param u in [0, 1); increasing u moves from the start of the light to its end.
@@ -188,6 +188,7 @@ public:
 
 private:
     static constexpr T kSmallest = std::numeric_limits<T>::min();
+    static constexpr T kLargest = std::numeric_limits<T>::max();
 
     struct Part {
         Real begin, end; ///< shares of the length

@@ -30,11 +30,12 @@ public:
                             const LineProfile<T, n>& profile) noexcept
         : technique_(technique) {
         // Find the places of nodes, then the mean radiance around each of them.
+        const auto points = technique.points_at(Real(T(0.5)));
         Real at[kNodes];
         for (int i = 0; i < kNodes; ++i) {
             constexpr T kLast = 1 - std::numeric_limits<T>::epsilon() / 2;
             const T y = min(PiecewiseLinear<Real, kNodes>::node(i), kLast);
-            at[i] = place(light.axis, technique.sample({Real(T(0.5)), Real(y)}).p);
+            at[i] = place(light.axis, points(Real(y)));
         }
         const T mean = profile.below(T(1));
         Real value[kNodes];
@@ -112,7 +113,8 @@ private:
     NUSSELT_HD Real density(const Real& pdf, const Real& y) const noexcept {
         const Real whole = along_.integral();
         const auto lit = whole > Real(0);
-        return select(lit, pdf * (along_.value(y) / select(lit, whole, Real(1))), Real(0));
+        const Real density = pdf * (along_.value(y) / select(lit, whole, Real(1)));
+        return select(lit & is_finite(density), density, Real(0));
     }
 
     Technique technique_;

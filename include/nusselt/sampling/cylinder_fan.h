@@ -54,13 +54,21 @@ struct UniformImportance {
         return Real(2) * e.sine_extent().difference;
     }
     template <class Real>
-    NUSSELT_HD static LinePoint<Real> point(const LineExtent<Real>& e, const Real& u) noexcept {
-        return LineMap<Real>(e).point_at(select(e.line.sign > Real(0), u, Real(1) - u));
-    }
+    struct Arc {
+        LineMap<Real> map;
+        Real sign; ///< of the line
+
+        NUSSELT_HD LinePoint<Real> point(const Real& u) const noexcept {
+            return map.point_at(select(sign > Real(0), u, Real(1) - u));
+        }
+        NUSSELT_HD Real invert(const Vec3<Real>& wi) const noexcept {
+            const Real share = map.share_in(wi);
+            return below_one(select(sign > Real(0), share, Real(1) - share));
+        }
+    };
     template <class Real>
-    NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        const Real share = LineMap<Real>(e).share_in(wi);
-        return below_one(select(e.line.sign > Real(0), share, Real(1) - share));
+    NUSSELT_HD static Arc<Real> arc(const LineExtent<Real>& e) noexcept {
+        return {LineMap<Real>(e), e.line.sign};
     }
 };
 
@@ -77,12 +85,8 @@ struct CosineImportance {
         return cosine_integral(e);
     }
     template <class Real>
-    NUSSELT_HD static LinePoint<Real> point(const LineExtent<Real>& e, const Real& u) noexcept {
-        return CosineArc<Real>(e).point(u);
-    }
-    template <class Real>
-    NUSSELT_HD static Real invert(const LineExtent<Real>& e, const Vec3<Real>& wi) noexcept {
-        return CosineArc<Real>(e).invert(wi);
+    NUSSELT_HD static CosineArc<Real> arc(const LineExtent<Real>& e) noexcept {
+        return CosineArc<Real>(e);
     }
 };
 
@@ -161,16 +165,14 @@ public:
     /// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it,
     /// rising along the axis. Without meaning if integral() is 0.
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& u) const noexcept {
-        const HalfPlane h = half_plane(azimuth_at(fma(warp_.invert(u.x), range_, low_)));
-        const LinePoint<Real> point = Importance::point(h.extent, u.y);
-        // The line is at distance one: the reciprocal distance of a point is the cosine of its angle.
-        const Real mapped = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
-                            max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
-        // In a half-plane without importance the map may not exist. Any point will do, its density is 0.
-        const Real steepness = select(h.integral > Real(0), mapped, Real(0));
-        const Real tangent = (h.widening * steepness - h.shear) / stretch_;
-        const Vec2<Real> p = view_.first_point(h.slice, tangent);
-        return p.x * view_.s + p.y * h.slice.t;
+        const HalfPlane h = half_plane_at(u.x);
+        return point_in(h, Importance::arc(h.extent), u.y);
+    }
+
+    /// The points in the half-plane that u.x chooses, as a function of u.y.
+    NUSSELT_HD auto points_at(const Real& u) const noexcept {
+        const HalfPlane h = half_plane_at(u);
+        return [this, h, arc = Importance::arc(h.extent)](const Real& y) { return point_in(h, arc, y); };
     }
 
     /// Density with respect to solid angle in the space of the importance, over the importance [1/sr].
@@ -188,7 +190,7 @@ public:
         const auto lit = integral_ > Real(0);
         const Real below = warp_.below(share_of(h.slice.azimuth));
         return {below_one(below / select(lit, warp_.integral(), Real(1))),
-                Importance::invert(h.extent, normalize(space_.to_cosine(wi)))};
+                Importance::arc(h.extent).invert(normalize(space_.to_cosine(wi)))};
     }
 
     /// Estimate of the integral of the importance over the cylinder, by the interpolant; 0 if nothing is visible.
@@ -204,6 +206,23 @@ private:
         LineExtent<Real> extent; ///< of the image, on the line at distance one
         Real integral;           ///< of the importance
     };
+
+    NUSSELT_HD HalfPlane half_plane_at(const Real& u) const noexcept {
+        return half_plane(azimuth_at(fma(warp_.invert(u), range_, low_)));
+    }
+    /// \param arc of the half-plane.
+    template <class Arc>
+    NUSSELT_HD Vec3<Real> point_in(const HalfPlane& h, const Arc& arc, const Real& u) const noexcept {
+        const LinePoint<Real> point = arc.point(u);
+        // The line is at distance one: the reciprocal distance of a point is the cosine of its angle.
+        const Real mapped = h.extent.line.sign * LineMap<Real>(h.extent).sine_at(point.share) /
+                            max(point.inverse_distance, Real(1 / kSteepest<Scalar>));
+        // In a half-plane without importance the map may not exist. Any point will do, its density is 0.
+        const Real steepness = select(h.integral > Real(0), mapped, Real(0));
+        const Real tangent = (h.widening * steepness - h.shear) / stretch_;
+        const Vec2<Real> p = view_.first_point(h.slice, tangent);
+        return p.x * view_.s + p.y * h.slice.t;
+    }
 
     /// The normal of the horizon in shading space: directions with a positive product have importance.
     NUSSELT_HD static Vec3<Real> horizon_normal(const Space& space) noexcept {

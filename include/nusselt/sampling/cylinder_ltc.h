@@ -38,6 +38,12 @@ public:
         return {wi, pdf(wi), inverse_scale_ * p};
     }
 
+    /// The points p of samples with the same u.x, as a function of u.y: cheaper than samples where there are many. Valid as
+    /// long as this.
+    NUSSELT_HD auto points_at(const Real& u) const noexcept {
+        return [this, points = fan_.points_at(u)](const Real& y) { return inverse_scale_ * points(y); };
+    }
+
     /// \param wi a unit direction towards the light.
     NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
         const Real pi = Real(kPi<scalar_t<Real>>);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
 #define NUSSELT_LINE_EMISSION_LINE_CELLS_GLSL
-// Follows include/nusselt/line_emission/textured_line.h @ fc28af3f6025
+// Follows include/nusselt/line_emission/textured_line.h @ b972ffb2caa5
 /// What TexturedLine and TexturedLineLtc share: they choose a cell in proportion to the mean of radiance at both ends times the
 /// closed form of its measure, and a point in the cell by a linear density. Twin of include/nusselt/line_emission/textured_line.h.
 
@@ -54,13 +54,15 @@ LineSums line_cells_sums(LineCells self, float target, int last_cell) {
         float begin = nusselt_min(nusselt_max(low, self.lit.x), high);
         float end = nusselt_max(nusselt_min(high, self.lit.y), begin);
         LineSegment image = self.image;
-        float share = self.unit *
-                      projected_solid_angle(LineSegment(nusselt_fma(image.len * begin, image.s, image.p0), image.s,
-                                                        image.len * (end - begin)));
+        float unlimited = self.unit *
+                          projected_solid_angle(LineSegment(nusselt_fma(image.len * begin, image.s, image.p0),
+                                                            image.s, image.len * (end - begin)));
+        // Those of denormal lines may overflow, and black cells must not turn that into NaN.
+        float share = nusselt_min(nusselt_max(unlimited, 0.0), kNusseltLargest);
         // Interpolation at both ends, which takes half of what lies within.
         float last = 0.5 * ((begin - low) + (end - low)) / (high - low);
         vec3 mean = (1.0 - last) * radiance_low + last * radiance_high;
-        sums.weight = nusselt_max(share * mean_of_channels(mean), 0.0);
+        sums.weight = share * mean_of_channels(mean);
         sums.expected += share * mean;
     }
     return sums;
@@ -83,7 +85,7 @@ LineCells line_cells_prepare(LineSegment line, LineSegment image, float ratio, f
     LineSums sums = line_cells_sums(self, kNusseltLargest, line_profile_cells(profile) - 1);
     float total = sums.before + sums.weight;
     self.total = is_finite(total) ? total : 0.0;
-    self.expected = self.total > 0.0 ? sums.expected : vec3(0.0);
+    self.expected = self.total > 0.0 ? nusselt_min(sums.expected, vec3(kNusseltLargest)) : vec3(0.0);
     return self;
 }
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_LINE_LTC_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_LINE_LTC_GLSL
-// Follows include/nusselt/line_emission/textured_line.h @ fc28af3f6025
+// Follows include/nusselt/line_emission/textured_line.h @ b972ffb2caa5
 /// Sampling of linear lights whose radiance varies along them, in proportion to radiance times a glossy lobe. Twin of
 /// TexturedLineLtc in include/nusselt/line_emission/textured_line.h, for profiles of up to 64 texels.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TEXTURED_TUBE_LTC_GLSL
 #define NUSSELT_LINE_EMISSION_TEXTURED_TUBE_LTC_GLSL
-// Follows include/nusselt/line_emission/textured_tube.h @ 5182c18c9400
+// Follows include/nusselt/line_emission/textured_tube.h @ 9b9a07092402
 /// Sampling of tubes of finite radius whose radiance varies along them, nearly in proportion to radiance times a glossy lobe. Twin
 /// of TexturedTubeLtc in include/nusselt/line_emission/textured_tube.h.
 ///
@@ -39,14 +39,14 @@ float textured_tube_ltc_measure(TexturedTubeLtc self) {
 LightSample textured_tube_ltc_sample(TexturedTubeLtc self, vec2 u) {
     float y = below_one(tube_warp_invert(self.along, u.y));
     LightSample s = cylinder_ltc_sample(textured_tube_ltc_technique(self), vec2(u.x, y));
-    s.pdf *= tube_warp_density(self.along, y);
+    s.pdf = tube_warp_density_of_sample(self.along, s.pdf, y);
     return s;
 }
 
 /// \param wi a unit direction towards the light.
 float textured_tube_ltc_pdf(TexturedTubeLtc self, vec3 wi) {
-    return cylinder_ltc_pdf(textured_tube_ltc_technique(self), wi) *
-           tube_warp_density(self.along, cylinder_ltc_invert(textured_tube_ltc_technique(self), wi).y);
+    return tube_warp_density_of_sample(self.along, cylinder_ltc_pdf(textured_tube_ltc_technique(self), wi),
+                                       cylinder_ltc_invert(textured_tube_ltc_technique(self), wi).y);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
 #define NUSSELT_LINE_EMISSION_TUBE_WARP_GLSL
-// Follows include/nusselt/line_emission/textured_tube.h @ 5182c18c9400
+// Follows include/nusselt/line_emission/textured_tube.h @ 9b9a07092402
 // Follows include/nusselt/sampling/piecewise_linear.h @ 4bf771354ecf
 /// What TexturedTube and TexturedTubeLtc share: a piecewise linear density of the second random number, in proportion to the
 /// radiance of the places that it leads to. Twin of a part of include/nusselt/line_emission/textured_tube.h.
@@ -96,6 +96,12 @@ float tube_warp_density(TubeWarp self, float x) {
     float share = (x - tube_warp_node(i)) / (tube_warp_node(i + 1) - tube_warp_node(i));
     float whole = tube_warp_integral(self);
     return whole > 0.0 ? nusselt_fma(share, self.value[i + 1] - self.value[i], self.value[i]) / whole : 0.0;
+}
+
+/// The density of a sample whose second random number x has this density. \param pdf of the technique
+float tube_warp_density_of_sample(TubeWarp self, float pdf, float x) {
+    float density = pdf * tube_warp_density(self, x);
+    return is_finite(density) ? density : 0.0;
 }
 
 /// The integral from 0 to x in [0, 1].

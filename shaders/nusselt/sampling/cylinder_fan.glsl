@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_FAN_GLSL
-// Follows include/nusselt/sampling/cylinder_fan.h @ d6dffb9488ee
+// Follows include/nusselt/sampling/cylinder_fan.h @ 1f0dfae1eae7
 /// Sampling of closed cylinders without rejection: first a half-plane of the fan around the direction of the axis, then
 /// a direction in it. What the techniques for cylinders share. Twin of include/nusselt/sampling/cylinder_fan.h;
 /// docs/techniques/cylinder.md has the derivation.

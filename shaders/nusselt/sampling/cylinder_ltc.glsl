@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_LTC_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_LTC_GLSL
-// Follows include/nusselt/sampling/cylinder_ltc.h @ 1f6e1e9aac2a
+// Follows include/nusselt/sampling/cylinder_ltc.h @ 95e0fccacbfa
 /// Sampling of a closed cylinder of finite radius in proportion to a linearly transformed cosine, without rejection.
 /// With a lobe that fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 /// Twin of include/nusselt/sampling/cylinder_ltc.h.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_SAMPLING_CYLINDER_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_SAMPLING_CYLINDER_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/sampling/cylinder_projected_solid_angle.h @ 7f8c3623c839
+// Follows include/nusselt/sampling/cylinder_projected_solid_angle.h @ 9653ba74ebc5
 /// Sampling of a closed cylinder of finite radius in proportion to the cosine at the surface, without rejection. With a
 /// Lambertian tube on a Lambertian surface, almost all noise that remains comes from shadows. Twin of
 /// include/nusselt/sampling/cylinder_projected_solid_angle.h.

@@ -3,6 +3,7 @@
 #include "render_cpu/lights/light_kernel.h"
 #include "render_cpu/lights/profile_records.h"
 #include "scene/model/library_vector.h"
+#include "scene/model/lights/line_radiance.h"
 #include "scene/model/profiles/line_profile.h"
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
@@ -29,12 +30,6 @@ struct LineArrays {
     ProfileRecords records;
     std::deque<LineProfileRecord> directions;
 };
-
-Profile make_profile(const scene::LineLight& light, const scene::TexturedEmission& emission) {
-    const std::vector<Vec3<float>> texels =
-        scene::scaled(emission.texture->texels, scene::per_channel_ratio(light.radiance, emission.mean));
-    return make_line_profile<scene::kMaxLineTexels>(texels.data(), static_cast<int>(texels.size()));
-}
 
 LineRecord make_record(const scene::LineLight& light) {
     const auto line = make_line(to_vec(light.start), to_vec(light.end));
@@ -76,7 +71,7 @@ std::shared_ptr<const void> make_line_records(const scene::Scene& scene, const s
                 &arrays->directions.emplace_back(make_directions(scene, light, arrays->records));
         if (light.texture < 0) continue;
         const auto& emission = scene.emission_textures.at(static_cast<std::size_t>(light.texture));
-        arrays->profiles.push_back(std::make_unique<const Profile>(make_profile(light, emission)));
+        arrays->profiles.push_back(std::make_unique<const Profile>(radiance_along(light, emission)));
         arrays->lights.back().profile = arrays->profiles.back().get();
     }
     return {arrays, arrays->lights.data()};

@@ -4,6 +4,7 @@
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
+#include "scene/model/lights/line_radiance.h"
 #include "scene/model/vector_math.h"
 
 #include <nusselt/geometry/line_segment.h>
@@ -39,12 +40,8 @@ int constant_of(const scene::LineLight& light) {
 /// Appends the radiance along a light. \returns the number of the first word
 std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& light,
                           std::vector<std::uint32_t>& words) {
-    static_assert(scene::kMaxLineTexels == ShaderLineProfile::kMostTexels);
     const auto& emission = scene.emission_textures.at(static_cast<std::size_t>(light.texture));
-    const std::vector<Vec3<float>> texels =
-        scene::scaled(emission.texture->texels, scene::per_channel_ratio(light.radiance, emission.mean));
-    const ShaderLineProfile profile =
-        make_line_profile<scene::kMaxLineTexels>(texels.data(), static_cast<int>(texels.size()));
+    const ShaderLineProfile profile = radiance_along(light, emission);
     const std::uint32_t first = grow_words(words, static_cast<std::size_t>(LineProfileWords::count(profile)));
     LineProfileWords::write(profile, words.data() + first);
     return first;

@@ -37,6 +37,11 @@ double luminous_power(const EditableLight& light, double scene_radius);
 /// The quantity of its emission; null if it has no parts.
 const EmissionQuantity* quantity_of(const Lights& parts);
 
+/// Why a light cannot have what a field of a rig says.
+struct FieldDefect {
+    std::string field, message;
+};
+
 /// Takes the lights out of a scene and puts them back when they have been changed.
 class LightEditor {
 public:

@@ -16,7 +16,7 @@ namespace nusselt::scene {
 
 namespace {
 
-using Defect = std::optional<ProfileDefect>;
+using Defect = std::optional<FieldDefect>;
 
 /// The radiance of a texel of 1.
 Double3 texel_radiance(const GivenImage& given, double brightness_before, double brightness_of_image) {
@@ -31,7 +31,7 @@ Defect find_bright_texel(const Double3& scale, const std::vector<Float3>& texels
         most = {std::max(most.x, t.x), std::max(most.y, t.y), std::max(most.z, t.z)};
     const Double3 radiance = per_channel_product(scale, to_double(most));
     if (std::max({radiance.x, radiance.y, radiance.z}) <= double{kMaxRadiance}) return std::nullopt;
-    return ProfileDefect{"image_scale", "texels would have a radiance above 1e+30"};
+    return FieldDefect{"image_scale", "texels would have a radiance above 1e+30"};
 }
 
 /// Texture coordinates of a polygon in the whole image.
@@ -67,7 +67,7 @@ Defect change_polygons(const GivenImage& given, Scene& scene, std::vector<Polygo
         else if (lights.size() == 1 && is_parallelogram(light.vertices))
             corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         else
-            return ProfileDefect{"image", "a light without an image must be one parallelogram, or a tube"};
+            return FieldDefect{"image", "a light without an image must be one parallelogram, or a tube"};
         shown.push_back(show_image(given.image, corners));
         before += area(light) * luminance(to_double(light.radiance));
         of_image += area(light) * luminance(to_double(shown.back().emission.mean));
@@ -135,14 +135,13 @@ std::string map_path(const Scene& scene, const EditableLight& light) {
     return "";
 }
 
-std::optional<ProfileDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light) {
+std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light) {
     if (given.map != nullptr) {
         std::vector<EnvironmentLight>& environments = light.parts.of<EnvironmentLight>();
         if (environments.size() != light.parts.size())
-            return ProfileDefect{"map",
-                                 "only environments have a map; use \"image\" for lights with an area"};
+            return FieldDefect{"map", "only environments have a map; use \"image\" for lights with an area"};
         if (!given.scale && map_path(scene, light) == given.map->path) return std::nullopt;
-        if (is_black(given.map->mean)) return ProfileDefect{"map", "the map is black"};
+        if (is_black(given.map->mean)) return FieldDefect{"map", "the map is black"};
         for (EnvironmentLight& environment : environments)
             if (Defect defect = change_map(given, scene, environment)) return defect;
     }
@@ -150,25 +149,25 @@ std::optional<ProfileDefect> change_image(const GivenImage& given, Scene& scene,
     std::vector<PolygonLight>& polygons = light.parts.of<PolygonLight>();
     std::vector<LineLight>& lines = light.parts.of<LineLight>();
     if (polygons.size() + lines.size() != light.parts.size())
-        return ProfileDefect{"image",
-                             "only polygons, tubes and lines emit an image; environments have a \"map\""};
+        return FieldDefect{"image",
+                           "only polygons, tubes and lines emit an image; environments have a \"map\""};
     if (has_profile(light))
-        return ProfileDefect{"image", "a light with a profile, a spread or a honeycomb emits no image"};
+        return FieldDefect{"image", "a light with a profile, a spread or a honeycomb emits no image"};
     if (!given.scale && image_path(scene, light) == given.image->path) return std::nullopt;
     if (!polygons.empty())
         if (Defect defect = change_polygons(given, scene, polygons)) return defect;
     for (LineLight& line : lines)
         if (Defect defect = change_line(given, scene, line)) return defect;
-    if (is_black(light)) return ProfileDefect{"image", "the light shows nothing but black of the image"};
+    if (is_black(light)) return FieldDefect{"image", "the light shows nothing but black of the image"};
     return std::nullopt;
 }
 
-std::optional<ProfileDefect> turn_map(const Rotation& rotation, EditableLight& light) {
+std::optional<FieldDefect> turn_map(const Rotation& rotation, EditableLight& light) {
     std::vector<EnvironmentLight>& environments = light.parts.of<EnvironmentLight>();
-    if (environments.empty()) return ProfileDefect{"rotate_map", "only environments have a map"};
+    if (environments.empty()) return FieldDefect{"rotate_map", "only environments have a map"};
     if (std::all_of(environments.begin(), environments.end(),
                     [](const EnvironmentLight& environment) { return environment.map < 0; }))
-        return ProfileDefect{"rotate_map", "it has no map that could be turned"};
+        return FieldDefect{"rotate_map", "it has no map that could be turned"};
     for (EnvironmentLight& environment : environments) {
         PolygonVertices portal = std::exchange(environment.portal, {});
         LightKind<EnvironmentLight>::transform(environment, scene::rotation(rotation.degrees, rotation.axis));

@@ -2,7 +2,6 @@
 /// Images that lights emit, and maps of environments, which rigs exchange.
 
 #include "scene/rig/light_edit.h"
-#include "scene/rig/light_profile.h"
 #include "scene/rig/rig.h"
 
 #include <optional>
@@ -18,9 +17,9 @@ std::string map_path(const Scene& scene, const EditableLight& light);
 /// show the same part of it as of the image before; a parallelogram without an image shows all of it, from its first vertex along
 /// its first edge. Nothing changes if the light has this image already and no scale is given.
 /// \returns what does not fit the light; nothing if all is well
-std::optional<ProfileDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light);
+std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light);
 
 /// Turns the map of an environment about the origin; its portal stays.
-std::optional<ProfileDefect> turn_map(const Rotation& rotation, EditableLight& light);
+std::optional<FieldDefect> turn_map(const Rotation& rotation, EditableLight& light);
 
 } // namespace nusselt::scene

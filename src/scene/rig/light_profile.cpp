@@ -94,7 +94,7 @@ ProfileRequest requested(const GivenProfile& given, const LightProfile& before) 
 }
 
 /// Why a light cannot have a profile, and the field that asks for it; nothing if it can.
-std::optional<ProfileDefect> find_defect(const GivenProfile& given, const EditableLight& light) {
+std::optional<FieldDefect> find_defect(const GivenProfile& given, const EditableLight& light) {
     const std::string field = given.luminaire != nullptr ? "ies"
                               : given.spread             ? "spread"
                               : given.honeycomb          ? "honeycomb"
@@ -103,15 +103,15 @@ std::optional<ProfileDefect> find_defect(const GivenProfile& given, const Editab
     const auto& lines = light.parts.of<LineLight>();
     const auto& points = light.parts.of<PointLight>();
     if (polygons.size() + lines.size() + points.size() != light.parts.size())
-        return ProfileDefect{field, "only polygons, tubes, lines and points can have a profile, and only "
-                                    "those with an area a spread"};
-    if (!points.empty() && given.spread) return ProfileDefect{"spread", "points have no spread"};
+        return FieldDefect{field, "only polygons, tubes, lines and points can have a profile, and only "
+                                  "those with an area a spread"};
+    if (!points.empty() && given.spread) return FieldDefect{"spread", "points have no spread"};
     if (polygons.size() != light.parts.size() && given.honeycomb)
-        return ProfileDefect{"honeycomb", "only polygons have a honeycomb"};
+        return FieldDefect{"honeycomb", "only polygons have a honeycomb"};
     const auto has_image = [](const auto& part) { return part.texture >= 0; };
     if (std::any_of(polygons.begin(), polygons.end(), has_image) ||
         std::any_of(lines.begin(), lines.end(), has_image))
-        return ProfileDefect{field, "a light that emits an image has no profile, spread or honeycomb"};
+        return FieldDefect{field, "a light that emits an image has no profile, spread or honeycomb"};
     return std::nullopt;
 }
 
@@ -135,7 +135,7 @@ LightProfile profile_of(const Scene& scene, const EditableLight& light) {
     return {};
 }
 
-std::optional<ProfileDefect> change_profile(const GivenProfile& given, Scene& scene, EditableLight& light) {
+std::optional<FieldDefect> change_profile(const GivenProfile& given, Scene& scene, EditableLight& light) {
     if (given.is_empty()) return std::nullopt;
     const LightProfile before = profile_of(scene, light);
     const ProfileRequest request = requested(given, before);
@@ -144,7 +144,7 @@ std::optional<ProfileDefect> change_profile(const GivenProfile& given, Scene& sc
         return std::nullopt;
     if (const auto defect = find_defect(given, light)) return defect;
     if (!has_effect(request) && !has_effect(before))
-        return ProfileDefect{"ies_degrees", "it has no profile that could be turned"};
+        return FieldDefect{"ies_degrees", "it has no profile that could be turned"};
     if (!has_effect(request)) {
         for (LineLight& line : light.parts.of<LineLight>()) {
             line.profile = -1;
@@ -157,8 +157,8 @@ std::optional<ProfileDefect> change_profile(const GivenProfile& given, Scene& sc
     for (PointLight& point : light.parts.of<PointLight>()) fit(request, rule, kDown, scene, point);
     for (LineLight& line : light.parts.of<LineLight>()) fit(request, rule, kDown, scene, line);
     if (!fit(request, rule, scene, light.parts.of<PolygonLight>()))
-        return ProfileDefect{"ies", "a light with more than " + std::to_string(kMostLuminousFaces) +
-                                        " normals cannot have a profile"};
+        return FieldDefect{"ies", "a light with more than " + std::to_string(kMostLuminousFaces) +
+                                      " normals cannot have a profile"};
     return std::nullopt;
 }
 

@@ -16,11 +16,8 @@ LightProfile profile_of(const Scene& scene, const EditableLight& light);
 
 /// Gives a light a profile. With a luminaire, it gets the intensities that were measured, in its old colour. Nothing changes
 /// if the light has this profile already.
-/// \returns what does not fit the light, as the field and a message; nothing if all is well
-struct ProfileDefect {
-    std::string field, message;
-};
-std::optional<ProfileDefect> change_profile(const GivenProfile& profile, Scene& scene, EditableLight& light);
+/// \returns what does not fit the light; nothing if all is well
+std::optional<FieldDefect> change_profile(const GivenProfile& profile, Scene& scene, EditableLight& light);
 
 /// Fits the profile of polygons again whose sides have changed. They keep their radiance.
 void refit_profile(Scene& scene, EditableLight& light);

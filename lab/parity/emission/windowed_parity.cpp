@@ -1,8 +1,8 @@
-#include "lab/parity/windowed_parity.h"
+#include "lab/parity/emission/windowed_parity.h"
 
 #include "lab/accuracy/lobe_lights.h"
-#include "lab/parity/emission_parity.h"
-#include "lab/parity/windowed_lights.h"
+#include "lab/parity/emission/emission_parity.h"
+#include "lab/parity/emission/windowed_lights.h"
 
 namespace nusselt::parity {
 

@@ -8,7 +8,7 @@
 #include <nusselt/line_emission/textured_line.h>
 
 #include "emission/pack_comparison.h"
-#include "emission/textured_lines.h"
+#include "line_emission/textured_lines.h"
 
 namespace nusselt_test {
 namespace {

@@ -1,7 +1,7 @@
-#include "lab/parity/textured_line_parity.h"
+#include "lab/parity/emission/textured_line_parity.h"
 
 #include "lab/accuracy/lobe_lights.h"
-#include "lab/parity/emission_parity.h"
+#include "lab/parity/emission/emission_parity.h"
 #include "proof/hostile/lights.h"
 
 #include <nusselt/line_emission/line_profile_words.h>

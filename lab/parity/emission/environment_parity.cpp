@@ -1,8 +1,8 @@
-#include "lab/parity/environment_parity.h"
+#include "lab/parity/emission/environment_parity.h"
 
 #include "lab/accuracy/lobe_lights.h"
-#include "lab/parity/emission_parity.h"
-#include "lab/parity/environment_maps.h"
+#include "lab/parity/emission/emission_parity.h"
+#include "lab/parity/emission/environment_maps.h"
 
 #include <nusselt/emission/environment_sampling.h>
 

@@ -1,8 +1,8 @@
-#include "lab/parity/textured_parity.h"
+#include "lab/parity/emission/textured_parity.h"
 
 #include "lab/accuracy/lobe_lights.h"
-#include "lab/parity/emission_parity.h"
-#include "lab/parity/textured_lights.h"
+#include "lab/parity/emission/emission_parity.h"
+#include "lab/parity/emission/textured_lights.h"
 
 namespace nusselt::parity {
 

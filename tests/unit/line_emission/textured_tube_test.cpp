@@ -11,7 +11,7 @@
 
 #include <nusselt/line_emission/textured_tube.h>
 
-#include "emission/textured_lines.h"
+#include "line_emission/textured_lines.h"
 
 namespace nusselt_test {
 namespace {
@@ -144,41 +144,6 @@ TYPED_TEST(TexturedTubeTest, SamplesDensitiesAndInversesAgree) {
             }
         }
     }
-}
-
-/// Points and directions of all sizes, many of them through the shading point or in its plane.
-template <class Variant, class T>
-void expect_contract_on_hostile_lights() {
-    HostileCoordinates<T> hostile;
-    const LineProfile<T> all[] = {profile_of<T>(1, [](double) { return 0; }),
-                                  profile_of<T>(64, [](double x) { return x > 0.9; }),
-                                  profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); })};
-    constexpr T kLargest = std::numeric_limits<T>::max();
-    int lit = 0;
-    for (int k = 0; k < 400; ++k) {
-        const Vec3<T> a = hostile.point(T(1));
-        const Vec3<T> b = hostile.point(T(1));
-        const Cylinder<T> tube{make_line(a, b), abs(hostile())};
-        const auto technique = textured<Variant>(tube, all[static_cast<std::size_t>(k) % 3]);
-        ASSERT_TRUE(technique.measure() >= 0 && technique.measure() <= kLargest);
-        for (const double u : {0.0, 0.25, 0.5, 0.77, 0.9999, 1 - 1e-16}) {
-            const auto s = technique.sample({T(0.3), static_cast<T>(u)});
-            ASSERT_TRUE(s.pdf >= 0 && s.pdf <= kLargest) << k;
-            ASSERT_TRUE(abs(s.wi.x) < 2 && abs(s.wi.y) < 2 && abs(s.wi.z) < 2) << k;
-            const T again = technique.pdf(s.wi);
-            ASSERT_TRUE(again >= 0 && again <= kLargest);
-            const Vec2<T> inverse = technique.invert(s.wi);
-            ASSERT_TRUE(inverse.x >= 0 && inverse.x < 1 && inverse.y >= 0 && inverse.y < 1) << k;
-            lit += s.pdf > 0;
-        }
-    }
-    EXPECT_GT(lit, 200);
-}
-
-TYPED_TEST(TexturedTubeTest, KeepsTheContractOnHostileLights) {
-    expect_contract_on_hostile_lights<TypeParam, float>();
-    expect_contract_on_hostile_lights<TypeParam, double>();
-    expect_contract_on_hostile_lights<TypeParam, long double>();
 }
 
 } // namespace

@@ -11,7 +11,7 @@
 
 #include <nusselt/line_emission/textured_line.h>
 
-#include "emission/textured_lines.h"
+#include "line_emission/textured_lines.h"
 
 namespace nusselt_test {
 namespace {
@@ -298,52 +298,6 @@ TYPED_TEST(TexturedLineTest, NothingComesFromWhatCannotBeSeen) {
     dark({-1, 0.5f, 0}, {1, 0.5f, 0}, white);
     dark({-1, -1, -1}, {1, 1, 1}, white);
     dark({1, 1, 1}, {1, 1, 1}, white);
-}
-
-/// Points and directions of all sizes, many of them through the shading point or in its plane.
-template <class Variant, class T>
-void expect_contract_on_hostile_lights() {
-    HostileCoordinates<T> hostile;
-    const LineProfile<T> all[] = {
-        profile_of<T>(1, [](double) { return 1; }), profile_of<T>(64, [](double x) { return x > 0.9; }),
-        profile_of<T>(7, [](double x) { return std::pow(10, 30 * x - 20); }), profile_of<T>(64, dots)};
-    constexpr T kLargest = std::numeric_limits<T>::max();
-    int lit = 0, agree = 0;
-    for (int k = 0; k < 2000; ++k) {
-        constexpr T kScales[] = {T(1), T(1), T(1e-25), T(1e25)};
-        const T scale = kScales[k % 4];
-        const Vec3<T> a = hostile.point(scale);
-        const Vec3<T> b = hostile.point(scale);
-        const auto technique = Variant::technique(make_line(a, b), all[static_cast<std::size_t>(k / 4) % 4]);
-        ASSERT_TRUE(technique.measure() >= 0 && technique.measure() <= kLargest);
-        ASSERT_TRUE(technique.unshadowed().y >= 0 && technique.unshadowed().y <= kLargest);
-        for (const double u : {0.0, 0.25, 0.5, 0.77, 0.9999, 1 - 1e-16}) {
-            const auto s = technique.sample(static_cast<T>(u));
-            ASSERT_TRUE(s.pdf >= 0 && s.pdf <= kLargest) << k;
-            ASSERT_TRUE(abs(s.wi.x) < 2 && abs(s.wi.y) < 2 && abs(s.wi.z) < 2) << k;
-            ASSERT_NEAR(s.pdf > 0 ? length(s.wi) : 1, 1, 1e-5) << k;
-            ASSERT_TRUE(s.at >= 0 && s.at <= 1);
-            ASSERT_TRUE(abs(s.p.x) <= kLargest && abs(s.p.y) <= kLargest && abs(s.p.z) <= kLargest);
-            ASSERT_GE(s.wi.z, 0);
-            const T again = technique.pdf(s.wi);
-            ASSERT_TRUE(again >= 0 && again <= kLargest) << k;
-            // Rounding decides where the density is steep, or the light is almost at the shading point.
-            agree += s.pdf > 0 && std::fabs(again / s.pdf - 1) < T(1e-3);
-            const T inverse = technique.invert(s.wi);
-            ASSERT_TRUE(inverse >= 0 && inverse < 1) << k;
-            lit += s.pdf > 0;
-        }
-        const T away = technique.pdf({T(0.6), T(0), T(-0.8)});
-        ASSERT_TRUE(away >= 0 && away <= kLargest);
-    }
-    EXPECT_GT(lit, 2000);
-    EXPECT_GT(agree, 0.8 * lit);
-}
-
-TYPED_TEST(TexturedLineTest, KeepsTheContractOnHostileLights) {
-    expect_contract_on_hostile_lights<TypeParam, float>();
-    expect_contract_on_hostile_lights<TypeParam, double>();
-    expect_contract_on_hostile_lights<TypeParam, long double>();
 }
 
 /// The same function as interpolation of texels in an image.

@@ -2,7 +2,6 @@
 /// Lines, profiles and lobes that tests of lights with a profile share.
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <nusselt/line_emission/line_profile.h>
@@ -31,21 +30,5 @@ nusselt::Ltc<Real> glossy_lobe() {
     const auto c = tilted_lobe(0.5L, 0.4L, 1.1L, 0.1L);
     return nusselt::Ltc<Real>({Real(c.m00), Real(c.m02), Real(c.m11), Real(c.m20), Real(c.m22), Real(1)});
 }
-
-/// Draws coordinates of all sizes, many of which lead through the shading point or to its plane.
-template <class T>
-class HostileCoordinates {
-public:
-    T operator()() { return static_cast<T>(kChoices[index_(random_)]); }
-    nusselt::Vec3<T> point(T scale) {
-        const T x = (*this)(), y = (*this)(), z = (*this)();
-        return {scale * x, scale * y, scale * z};
-    }
-
-private:
-    static constexpr double kChoices[] = {0, 0, 1, -1, 0.5, 1e-6, -1e-6, 1e-3, 1e6, -1e6, 1e-9, 0.3333333};
-    std::mt19937 random_{6};
-    std::uniform_int_distribution<std::size_t> index_{0, 11};
-};
 
 } // namespace nusselt_test
