@@ -24,6 +24,7 @@
 // All techniques, by scripts/check-techniques.py.
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/textured_polygon.h>
+#include <nusselt/emission/window_variation.h>
 #include <nusselt/emission/windowed_polygon.h>
 #include <nusselt/line_emission/textured_line.h>
 #include <nusselt/line_emission/textured_tube.h>

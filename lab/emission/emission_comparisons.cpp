@@ -36,7 +36,7 @@ const Variant kMeasure = {"projected_solid_angle + LTC",
 const Variant kProduct = {"with emission", pairs(1, Technique::projected_solid_angle, Strategies::diffuse_ltc,
                                                  Mis::clamped_optimal, EmissionSampling::product)};
 
-/// The strategies of the paper in about the time of products of directions, which take ten to thirty times as long.
+/// The strategies of the paper in about the time of products of directions, which take ten to thirty times as long where they are taken.
 const Variant kMoreMeasure = {"projected_solid_angle + LTC, 16 samples",
                               pairs(16, Technique::projected_solid_angle, Strategies::diffuse_ltc,
                                     Mis::clamped_optimal, EmissionSampling::measure)};
@@ -93,8 +93,9 @@ ImageComparison portal() {
         "An attic that the sky lights through a window with five corners, two rays per pixel.",
         "evidence/attic.pbrt", kMeasure, {kSolidAngle, kProjected, kMeasure, kProduct, kMoreMeasure});
     comparison.expectations = {
-        Falling{{Measure::rmse_outside_penumbrae}, {kSolidAngle.label, kMeasure.label, kProduct.label}},
-        // The sky varies little behind the window: to know it is of little use.
+        Falling{{Measure::rmse_outside_penumbrae}, {kSolidAngle.label, kMeasure.label}},
+        // The sky varies little behind the window: to know it is of little use, so that most points take the measure.
+        AtMostTimes{{Measure::rmse_outside_penumbrae}, kProduct.label, 1.05, {kMeasure.label}},
         AtMostTimes{{Measure::rmse_outside_penumbrae}, kMeasure.label, 1.25, {kProduct.label}},
         Unbiased{{kSolidAngle.label, kProjected.label, kMeasure.label, kProduct.label}}};
     return comparison;

@@ -2,6 +2,7 @@
 
 #include "render_cpu/kernel/lights/cell_samples.h"
 #include "render_cpu/kernel/lights/portal_light.h"
+#include "render_cpu/kernel/lights/window_samples.h"
 
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/windowed_polygon.h>
@@ -151,9 +152,12 @@ public:
 
     PortalCells(const render_cpu::EnvironmentRecord& record, const Surface& surface, float distance) noexcept
         : record_(record), surface_(surface), distance_(distance) {
-        const WindowedLight<float>& front = side(0);
-        const Vector to_portal = broadcast<Real>(front.plane.corner) - surface.position;
-        behind_ = dot(broadcast<Real>(front.plane.frame.n), to_portal) > Real(0);
+        const Vector to_portal = broadcast<Real>(side(0).plane.corner) - surface.position;
+        behind_ = (dot(broadcast<Real>(side(0).plane.frame.n), to_portal) > Real(0)).bits();
+    }
+    /// The normal of a portal leads away from the points that it is for.
+    const WindowedLight<float>& light(int lane) const noexcept {
+        return side((behind_ >> lane & 1u) != 0 ? 0 : 1);
     }
 
     LaneTechniques<Diffuse> diffuse(LaneMask lanes) const noexcept {
@@ -177,10 +181,6 @@ private:
     const WindowedLight<float>& side(int k) const noexcept {
         return *static_cast<const WindowedLight<float>*>(record_.portal[k]);
     }
-    /// The normal of a portal leads away from the points that it is for.
-    const WindowedLight<float>& light(int lane) const noexcept {
-        return side((behind_.bits() >> lane & 1u) != 0 ? 0 : 1);
-    }
     WindowPlane<float> plane(int lane) const noexcept {
         return to_shading_space(light(lane).plane, single_lane<Vec3<float>>(surface_.position, lane),
                                 single_lane<Frame<float>>(surface_.frame, lane));
@@ -188,8 +188,8 @@ private:
 
     const render_cpu::EnvironmentRecord& record_;
     const Surface& surface_;
-    float distance_; ///< beyond the scene, from any of its points [m]
-    LaneMask behind_;
+    float distance_;       ///< beyond the scene, from any of its points [m]
+    std::uint32_t behind_; ///< a bit for each lane
 };
 
 template <void (*add)(ReflectedLight&, const PortalCells&, const LocalLight<Sky>&) noexcept>
@@ -200,6 +200,22 @@ void add_through_portal(render_cpu::LitPacket& packet, const render_cpu::LightSe
     if (!any(light.lit)) return;
     add(reflected, PortalCells(environment_record(lights, index), reflected.surface(), light.shape.distance),
         light);
+}
+
+/// Samples from cells where the map varies over the portal, which find a sun. Elsewhere they would cost much and gain little.
+template <int N, void (*add)(ReflectedLight&, const PortalCells&, const LocalLight<Sky>&) noexcept>
+void add_portal_samples(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
+                        std::int32_t index) noexcept {
+    auto& reflected = static_cast<ReflectedLight&>(packet);
+    const auto light = PortalLight<N>::local(reflected, lights, index);
+    if (!any(light.lit)) return;
+    const PortalCells cells(*light.shape.environment, reflected.surface(), light.shape.distance);
+    const LaneMask even = varies_little(
+        light.lit, reflected.surface(), [&](int lane) -> const auto& { return cells.light(lane); });
+    add_where_it_varies(
+        reflected, light.lit, even,
+        [&](ReflectedLight& part) { add_through_portal<add>(part, lights, index); },
+        [&](ReflectedLight& part) { portal_points<N>(reflected.job())(part, lights, index); });
 }
 
 template <void (*add)(ReflectedLight&, const SkyCells&, const LocalLight<Sky>&) noexcept>
@@ -217,8 +233,9 @@ template <int N>
 render_cpu::AddLight mapped_portal(const render_cpu::RenderJob& job) noexcept {
     if (job.technique == render::Technique::ltc_analytic) return &add_through_portal<&add_cell_integrals>;
     if (takes_windowed_products(job)) {
-        if (job.strategies == render::Strategies::diffuse) return &add_through_portal<&add_by_cells>;
-        if (job.strategies == render::Strategies::diffuse_ltc) return &add_through_portal<&add_by_cell_pair>;
+        if (job.strategies == render::Strategies::diffuse) return &add_portal_samples<N, &add_by_cells>;
+        if (job.strategies == render::Strategies::diffuse_ltc)
+            return &add_portal_samples<N, &add_by_cell_pair>;
     }
     return portal_points<N>(job);
 }

@@ -2,12 +2,17 @@
 
 #include "render_cpu/kernel/lights/cell_samples.h"
 #include "render_cpu/kernel/lights/polygon_light.h"
+#include "render_cpu/kernel/lights/window_samples.h"
 
 #include <nusselt/emission/windowed_polygon.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
+
+const WindowedLight<float>& side_of(const render_cpu::PolygonProfile& profile, bool is_back) noexcept {
+    return *static_cast<const WindowedLight<float>*>(profile.side[is_back ? 1 : 0]);
+}
 
 /// A light with a profile as a packet of shading points sees it, see cell_samples.h. Radiance is relative to its mean.
 /// \tparam n columns and rows of the lattice of cells
@@ -46,7 +51,7 @@ public:
 
 private:
     const WindowedLight<float>& side(int lane) const noexcept {
-        return *static_cast<const WindowedLight<float>*>(profile_.side[is_behind_ >> lane & 1u]);
+        return side_of(profile_, (is_behind_ >> lane & 1u) != 0);
     }
     WindowPlane<float> plane(int lane) const noexcept {
         return to_shading_space(side(lane).plane, single_lane<Vec3<float>>(surface_.position, lane),
@@ -86,9 +91,15 @@ struct AddCellIntegrals {
     }
 };
 
-/// How fast a spread or a honeycomb falls off with the slope of directions; 0 without either.
-float steepest_slope(const render_cpu::PolygonProfile& profile) noexcept {
-    return max(profile.inverse_slope, max(profile.inverse_holes.x, profile.inverse_holes.y));
+/// Whether a spread or a honeycomb is in front of the light, which falls to zero within its window.
+bool has_grid(const render_cpu::PolygonProfile& profile) noexcept {
+    return profile.inverse_slope > 0 || profile.inverse_holes.x > 0 || profile.inverse_holes.y > 0;
+}
+
+/// Points that see the back of a light.
+template <int N>
+LaneMask is_behind(const LocalLight<LocalPolygon<N>>& light) noexcept {
+    return light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
 }
 
 template <int N, class Add>
@@ -96,15 +107,13 @@ void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& light
                     std::int32_t index) noexcept {
     const auto light = PolygonLight<N>::local(reflected, lights, index);
     if (!any(light.lit)) return;
-    const LaneMask is_behind = light.lit & (dot(light.shape.normal, light.shape.vertex[0]) >= Real(0));
     const render_cpu::PolygonProfile& profile = *light.shape.profile;
     const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
-    // A spread or a honeycomb falls to zero within its window.
-    if (steepest_slope(profile) == 0)
-        Add::add(reflected, ProfileCells<Add::kLuminaireCells>(profile, reflected.surface(), is_behind),
-                 plain);
+    if (has_grid(profile))
+        Add::add(reflected, ProfileCells<8>(profile, reflected.surface(), is_behind(light)), plain);
     else
-        Add::add(reflected, ProfileCells<8>(profile, reflected.surface(), is_behind), plain);
+        Add::add(reflected,
+                 ProfileCells<Add::kLuminaireCells>(profile, reflected.surface(), is_behind(light)), plain);
 }
 
 template <int N, class Add>
@@ -113,39 +122,22 @@ void add_profiled(render_cpu::LitPacket& packet, const render_cpu::LightSet& lig
     add_by_profile<N, Add>(static_cast<ReflectedLight&>(packet), lights, index);
 }
 
-/// Points from which the profile hardly varies over the light: all of it is in a few degrees, or in a part of the spread.
-template <int N>
-LaneMask sees_few_directions(const LocalPolygon<N>& shape) noexcept {
-    constexpr float kFewDirections = 0.15f;
-    const float largest = kFewDirections / max(steepest_slope(*shape.profile), 1.0f);
-    Real nearest = dot(shape.vertex[0], shape.vertex[0]);
-    Real longest = dot(shape.edge[0], shape.edge[0]);
-    for (int j = 1; j < N; ++j) {
-        nearest = min(nearest, dot(shape.vertex[j], shape.vertex[j]));
-        longest = max(longest, dot(shape.edge[j], shape.edge[j]));
-    }
-    return longest < Real(largest * largest) * nearest;
-}
-
 /// Samples from cells where the profile varies over the light. Elsewhere they would cost much and gain little.
 template <int N, class Add>
 void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::LightSet& lights,
                           std::int32_t index) noexcept {
     auto& reflected = static_cast<ReflectedLight&>(packet);
     const auto light = PolygonLight<N>::local(reflected, lights, index);
-    const LaneMask is_far = light.lit & sees_few_directions(light.shape);
-    const LaneMask is_near = light.lit & !is_far;
-    const render_cpu::RenderJob& job = reflected.job();
-    if (any(is_near)) {
-        ReflectedLight part = reflected.with(is_near, job.samples_per_light);
-        add_by_profile<N, Add>(part, lights, index);
-        reflected.add(part);
-    }
-    if (any(is_far)) {
-        ReflectedLight part = reflected.with(is_far, job.samples_per_light);
-        polygon_points<N>(job)(part, lights, index);
-        reflected.add(part);
-    }
+    if (!any(light.lit)) return;
+    const std::uint32_t behind = is_behind(light).bits();
+    const LaneMask even = varies_little(
+        light.lit, reflected.surface(), [&](int lane) -> const auto& {
+            return side_of(*light.shape.profile, (behind >> lane & 1u) != 0);
+        });
+    add_where_it_varies(
+        reflected, light.lit, even,
+        [&](ReflectedLight& part) { add_by_profile<N, Add>(part, lights, index); },
+        [&](ReflectedLight& part) { polygon_points<N>(reflected.job())(part, lights, index); });
 }
 
 template <int N>
