@@ -66,27 +66,6 @@ run_tests() {
     ctest --preset "$1" -j "$jobs" --output-junit "$2" | grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec *$'
 }
 
-# The number in attribute $2 of the test suite in the report $1.
-count() { grep -m 1 -oE "^\s+$2=\"[0-9]+\"" "$1" | grep -oE "[0-9]+"; }
-
-# What processes with many tests add to their entries in the report of CTest: "TESTS FAILURES SKIPPED", from the reports of
-# GoogleTest $@. A failed process is an entry that failed already.
-count_in_processes() {
-    awk '/<testsuite / {
-             n = 0
-             for (i = 1; i <= NF; ++i) {
-                 split($i, field, "\"")
-                 if (field[1] == "tests=") tests += field[2]
-                 if (field[1] == "failures=") n += field[2]
-                 if (field[1] == "skipped=" || field[1] == "disabled=") skipped += field[2]
-             }
-             failures += n
-             if (n > 0 && FILENAME != last) ++processes
-             if (n > 0) last = FILENAME
-         }
-         END { print tests - (ARGC - 1), failures - processes, skipped + 0 }' "$@"
-}
-
 # Builds a preset with the arguments of build(), runs its tests and adds up the results. A build that fails counts as one
 # failed test.
 build_and_test() {
@@ -97,17 +76,11 @@ build_and_test() {
     fi
     stage "$preset: tests" run_tests "$preset" "$report"
     local all bad ignored
-    all=$(count "$report" tests) bad=$(count "$report" failures)
+    read -r all bad ignored < <(scripts/count-tests.sh "$report" "build/$preset/test-reports")
     if [ "${all:-0}" -eq 0 ]; then
         echo "no test ran"
         failed=$((failed + 1))
         return
-    fi
-    ignored=$(($(count "$report" skipped) + $(count "$report" disabled)))
-    local in_processes=(build/"$preset"/test-reports/*.xml) more more_bad more_ignored
-    if [ -e "${in_processes[0]}" ]; then
-        read -r more more_bad more_ignored < <(count_in_processes "${in_processes[@]}")
-        all=$((all + more)) bad=$((bad + more_bad)) ignored=$((ignored + more_ignored))
     fi
     passed=$((passed + all - bad - ignored)) failed=$((failed + bad)) skipped=$((skipped + ignored))
 }
