@@ -179,8 +179,10 @@ class CellLattice {
 
 public:
     /// Lights whose sides add up to less than this times their distance are far: Lambert's formula loses digits with the
-    /// distance, while the cosine over a cell becomes as good as linear. Both errors are alike here.
-    static constexpr T kFar = power_of_two<T>(-std::numeric_limits<T>::digits / 5);
+    /// distance, while the cosine over a cell becomes as good as quadratic. Both errors are alike here.
+    static constexpr T kFar = power_of_two<T>((24 - std::numeric_limits<T>::digits) / 6);
+    /// The same for lights that the horizon or their outline cuts. In cells that are cut, no more is known than the centre.
+    static constexpr T kFarIfCut = power_of_two<T>(-std::numeric_limits<T>::digits / 5);
 
     /// \param plane of the light in shading space, or in the cosine space of a lobe, with coordinates of order one.
     NUSSELT_HD CellLattice(const TexturePlane<Real>& plane, const TexturedLight<T, n>& light) noexcept
@@ -210,7 +212,11 @@ public:
         const Vec3<Real> centre = plane_.point_at({Real(0.5), Real(0.5)});
         const Real size = length_x_ + length_y_;
         const mask_t<Real> seen = (signed_distance_ != Real(0)) & (highest_ > Real(0));
-        const mask_t<Real> far = seen & (size * size < Real(kFar * kFar) * dot(centre, centre));
+        const Real squared = size * size;
+        mask_t<Real> far = squared < Real(kFarIfCut * kFarIfCut) * dot(centre, centre);
+        if (light_.pieces == 0)
+            far |= (lowest_ >= Real(0)) & (squared < Real(kFar * kFar) * dot(centre, centre));
+        far &= seen;
         const mask_t<Real> near = seen & !far;
         if (any(near))
             find_near_angles(angle, near);
@@ -222,7 +228,8 @@ public:
 private:
     static constexpr T line(int i) noexcept { return TexturedLight<T, n>::line(i); }
 
-    /// The cosine at the centre, and the mean height over the corners and the centre for cells that the horizon cuts.
+    /// The Taylor series of the cosine around the centre up to the second order, and the mean height over the corners and the
+    /// centre for cells that the horizon cuts.
     /// \param points whose angles change.
     NUSSELT_HD void find_far_angles(T* angle, const mask_t<Real>& points) const noexcept {
         constexpr T step = T(1) / T(n);
@@ -230,6 +237,13 @@ private:
         const Real rise_y = Real(T(0.5) * step) * plane_.side_y.z;
         const Real area = abs(signed_distance_) * Real(step) * Real(step) *
                           length(cross(direction_x_, direction_y_)) * length_x_ * length_y_;
+        // Sides of a cell.
+        const Vec3<Real> a = Real(step) * plane_.side_x;
+        const Vec3<Real> b = Real(step) * plane_.side_y;
+        const Real spread = Real(T(1) / T(6)) * (dot(a, a) + dot(b, b));
+        const auto along = [](const Vec3<L>& p, const Vec3<Real>& side) {
+            return multiply_add(p.x, L(side.x), multiply_add(p.y, L(side.y), p.z * L(side.z)));
+        };
         for (int row = 0; row < n; ++row) {
             for (int column = 0; column < n; column += kLanes) {
                 const L x = L(step) * (Lanes::count_from(column) + L(T(0.5)));
@@ -240,17 +254,22 @@ private:
                 const Vec3<L> p{at(plane_.corner.x, plane_.side_x.x, plane_.side_y.x),
                                 at(plane_.corner.y, plane_.side_x.y, plane_.side_y.y),
                                 at(plane_.corner.z, plane_.side_x.z, plane_.side_y.z)};
-                const L squared = dot(p, p);
+                const L inverse = L(T(1)) / dot(p, p);
                 const auto above = [&](const Real& rise) { return max(p.z + L(rise), L(T(0))); };
                 const L corners = (above(rise_x + rise_y) + above(rise_x - rise_y)) +
                                   (above(rise_y - rise_x) + above(-rise_x - rise_y));
                 const L height = L(T(2) / T(3)) * max(p.z, L(T(0))) + L(T(1) / T(12)) * corners;
+                const L along_a = along(p, a), along_b = along(p, b);
+                const L growth = multiply_add(
+                    inverse, (along_a * along_a + along_b * along_b) * inverse - L(spread), L(T(1)));
+                const L fall = (L(a.z) * along_a + L(b.z) * along_b) * (inverse * L(T(1) / T(3)));
+                // Where the horizon cuts a cell, the series is wrong.
+                const L mean = min(max(height * growth - fall, L(T(0.5)) * height), L(T(2)) * height);
                 const int cell = row * n + column;
                 const L cover = Lanes::load_shared(light_.cover + cell);
                 T* const target = angle + kPoints * cell;
-                Lanes::store(target,
-                             select(mask_t<L>(points), (L(area) * cover) * (height / squared) / squared,
-                                    Lanes::load(target)));
+                Lanes::store(target, select(mask_t<L>(points), (L(area) * cover) * (mean * inverse) * inverse,
+                                            Lanes::load(target)));
             }
         }
     }

@@ -117,7 +117,7 @@ public:
         const T distance = plane_distance(rectangle_in(plane_, low, high));
         const Vec3<T> centre = plane_.point_at(T(0.5) * (low + high));
         const T size = length(plane_.side_x) * (high.x - low.x) + length(plane_.side_y) * (high.y - low.y);
-        constexpr T kFar = CellLattice<T, 8>::kFar;
+        constexpr T kFar = CellLattice<T, 8>::kFarIfCut;
         if (distance == T(0))
             for (int cell = 0; cell < n * n; ++cell) angle[cell] = T(0);
         else if (size * size < kFar * kFar * dot(centre, centre))

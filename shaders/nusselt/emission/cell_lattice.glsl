@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_CELL_LATTICE_GLSL
 #define NUSSELT_EMISSION_CELL_LATTICE_GLSL
-// Follows include/nusselt/emission/cell_lattice.h @ bd05eeb78186
+// Follows include/nusselt/emission/cell_lattice.h @ 2af571ead029
 /// Projected solid angles of all cells of a lattice in the plane of a light. Twin of
 /// include/nusselt/emission/cell_lattice.h, which explains the method. Cells are lanes there; here, one row is computed
 /// after the other, so that the projected solid angles are the only array with a number per cell.
@@ -132,20 +132,29 @@ TermLine cell_lattice_row_line(CellLattice self, int j) {
     return make_term_line(q, self.direction_x, chord.x, chord.y);
 }
 
-/// The cosine at the centre, and the mean height over the corners and the centre for cells that the horizon cuts.
+/// The Taylor series of the cosine around the centre up to the second order, and the mean height over the corners and the
+/// centre for cells that the horizon cuts.
 void cell_lattice_find_far_angles(CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
     const float s = 1.0 / float(kNusseltCells);
     vec2 rise = 0.5 * s * vec2(self.plane.side_x.z, self.plane.side_y.z);
     float area = abs(self.signed_distance) * s * s *
                  nusselt_length(nusselt_cross(self.direction_x, self.direction_y)) * self.length_x * self.length_y;
+    vec3 a = s * self.plane.side_x; // sides of a cell
+    vec3 b = s * self.plane.side_y;
+    float spread = 1.0 / 6.0 * (dot(a, a) + dot(b, b));
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) {
         vec2 middle = s * (vec2(cell % kNusseltCells, cell / kNusseltCells) + 0.5);
         vec3 p = texture_plane_point_at(self.plane, middle);
-        float squared = dot(p, p);
+        float inverse = 1.0 / dot(p, p);
         float corners = (nusselt_max(p.z + (rise.x + rise.y), 0.0) + nusselt_max(p.z + (rise.x - rise.y), 0.0)) +
                         (nusselt_max(p.z + (rise.y - rise.x), 0.0) + nusselt_max(p.z + (-rise.x - rise.y), 0.0));
         float height = 2.0 / 3.0 * nusselt_max(p.z, 0.0) + 1.0 / 12.0 * corners;
-        angle[cell] = (area * textured_light_cover(self.light, cell)) * (height / squared) / squared;
+        vec2 along = vec2(dot(p, a), dot(p, b));
+        float growth = nusselt_fma(inverse, dot(along, along) * inverse - spread, 1.0);
+        float fall = (a.z * along.x + b.z * along.y) * (inverse * (1.0 / 3.0));
+        // Where the horizon cuts a cell, the series is wrong.
+        float mean = nusselt_min(nusselt_max(height * growth - fall, 0.5 * height), 2.0 * height);
+        angle[cell] = (area * textured_light_cover(self.light, cell)) * (mean * inverse) * inverse;
     }
 }
 
@@ -210,12 +219,14 @@ void cell_lattice_find_near_angles(CellLattice self, inout float angle[kNusseltC
 /// never zero where the light is: at least as large as their rounding errors.
 /// \param angle 8 x 8 of them, in the order of cells: cell (i, j) has the index 8 j + i.
 void cell_lattice_find_angles(CellLattice self, out float angle[kNusseltCells * kNusseltCells]) {
-    const float far = 1.0 / 16.0; // kFar of C++ for float
+    const float far = 1.0 / 16.0; // kFarIfCut of C++ for float; kFar is 1
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) angle[cell] = 0.0;
     if (self.signed_distance == 0.0 || !(self.highest > 0.0)) return;
     vec3 centre = texture_plane_point_at(self.plane, vec2(0.5));
     float size = self.length_x + self.length_y;
-    if (size * size < far * far * dot(centre, centre)) {
+    float squared = dot(centre, centre);
+    bool is_cut = textured_light_pieces(self.light) > 0 || !(self.lowest >= 0.0);
+    if (size * size < (is_cut ? far * far : 1.0) * squared) {
         cell_lattice_find_far_angles(self, angle);
     } else {
         cell_lattice_find_near_angles(self, angle);

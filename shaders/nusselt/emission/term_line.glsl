@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_TERM_LINE_GLSL
 #define NUSSELT_EMISSION_TERM_LINE_GLSL
-// Follows include/nusselt/emission/cell_lattice.h @ bd05eeb78186
+// Follows include/nusselt/emission/cell_lattice.h @ 2af571ead029
 /// Lines of lattices, which sides of cells lie on. Twin of TermLine in include/nusselt/emission/cell_lattice.h.
 
 #include "../core/trig.glsl"

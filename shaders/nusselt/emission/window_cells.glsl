@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_WINDOW_CELLS_GLSL
 #define NUSSELT_EMISSION_WINDOW_CELLS_GLSL
-// Follows include/nusselt/emission/window_cells.h @ b91b400d5763
+// Follows include/nusselt/emission/window_cells.h @ a8ab3ae072ea
 /// The cells of a window: equal steps in alpha and beta, which are rectangles of unequal size in the plane of slopes.
 /// Twin of include/nusselt/emission/window_cells.h, with 8 x 8 cells. As in cell_lattice.glsl, one row is computed after
 /// the other.
@@ -155,7 +155,7 @@ void window_cells_find_near_angles(TexturePlane plane, WindowLines x, WindowLine
 /// \param plane with coordinates of the order of its distance, in shading space or in the cosine space of a lobe.
 void window_cells_find_angles(TexturePlane plane, WindowLines x, WindowLines y,
                               out float angle[kNusseltCells * kNusseltCells]) {
-    const float far = 1.0 / 16.0; // kFar of C++ for float
+    const float far = 1.0 / 16.0; // kFarIfCut of C++ for float
     vec2 low = vec2(x.offset[0], y.offset[0]);
     vec2 high = vec2(x.offset[kNusseltCells], y.offset[kNusseltCells]);
     float distance = plane_distance(polygon_in(plane, texture_part_of(TextureRectangle(low, high))));

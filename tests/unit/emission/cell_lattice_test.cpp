@@ -116,7 +116,8 @@ TEST(CellLattice, KeepsDigitsAtAllDistances) {
     struct Budget {
         double distance, rms;
     };
-    for (const Budget& budget : {Budget{0.5, 1e-5}, {3, 5e-5}, {30, 2.5e-4}, {300, 3e-6}, {1e5, 3e-6}}) {
+    for (const Budget& budget :
+         {Budget{0.5, 1e-5}, {2.1, 6e-5}, {3, 4e-5}, {30, 3e-6}, {300, 3e-6}, {1e5, 3e-6}}) {
         double squares = 0;
         int count = 0;
         for (const Plane<double>& plane : views_of_unit_square(budget.distance, 50)) {
