@@ -38,12 +38,14 @@ const int kTexturedLinesConstant = kFirstLightConstant + 9; ///< and strips, who
 const int kTexturedTubesConstant = kFirstLightConstant + 10;
 const int kPointProfilesConstant = kFirstLightConstant + 11;    ///< points that shine as a luminaire
 const int kProfiledPolygonsConstant = kFirstLightConstant + 12; ///< polygons whose radiance depends on the direction
-const int kConstantCount = kFirstLightConstant + 13;
+const int kUniformPortalsConstant = kFirstLightConstant + 13; ///< environments that shine through a portal
+const int kMappedPortalsConstant = kFirstLightConstant + 14;
+const int kConstantCount = kFirstLightConstant + 15;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
 const int kPolygonLightsBinding = kFirstLightBinding;
-const int kPolygonCornersBinding = kFirstLightBinding + 1;
+const int kPolygonCornersBinding = kFirstLightBinding + 1; ///< of polygons and portals
 const int kLineLightsBinding = kFirstLightBinding + 2;
 const int kPointLightsBinding = kFirstLightBinding + 3;
 const int kDistantLightsBinding = kFirstLightBinding + 4;
@@ -56,6 +58,7 @@ struct PolygonLightRecord {
     float normal[3];
     float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
+    uint first_corner_word;
     int texture_number;      ///< index of its PolygonTextureRecord, -1 for none
     uint first_profile_word; ///< of interface/profiles.h, kNoWords for none
 };
@@ -127,6 +130,8 @@ struct EnvironmentLightRecord {
     float z_axis[3];
     float radiance[3]; ///< the mean if there is a map
     uint first_map_word; ///< emission word that its EnvironmentMapWords begin with, after its texels; kNoWords for none
+    float normal[3];     ///< of the portal
+    uint first_corner_word; ///< of the portal, kNoWords without one
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

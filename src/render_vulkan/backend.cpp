@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace nusselt::render_vulkan {
 
@@ -23,8 +25,8 @@ void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame
     }
 }
 
-/// Whether the CPU would sample lights with a profile in proportion to it: takes_windowed_products() of its kernel, for the
-/// strategies that have products.
+/// Whether the CPU would sample profiles of polygons and portals in proportion to their radiance: takes_windowed_products() of
+/// its kernel, for the strategies that have products.
 bool asks_for_windowed_products(const render::RenderSettings& settings) {
     using render::Technique;
     if (settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal)
@@ -33,6 +35,18 @@ bool asks_for_windowed_products(const render::RenderSettings& settings) {
            !samples_visible_normals(settings.strategies) &&
            (settings.technique == Technique::projected_solid_angle ||
             settings.technique == Technique::projected_solid_angle_biased);
+}
+
+/// Lights that are sampled by their measure, although settings ask for products.
+struct LightsWithoutProducts {
+    std::string_view name;
+    std::ptrdiff_t count;
+};
+
+std::string warning_of(const LightsWithoutProducts& lights) {
+    return std::string(lights.name) + " (" + std::to_string(lights.count) +
+           ") are sampled as with --emission-sampling " +
+           std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them";
 }
 
 class VulkanScene final : public render::PreparedScene {
@@ -73,13 +87,19 @@ std::optional<std::string> VulkanBackend::why_unsupported(const render::RenderSe
 std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,
                                                  const render::RenderSettings& settings) const {
     if (!asks_for_windowed_products(settings)) return {};
-    const std::vector<scene::PolygonLight>& lights = scene.lights.of<scene::PolygonLight>();
-    const auto count =
-        std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.profile >= 0; });
-    if (count == 0) return {};
-    return {"lights with a profile, a spread or a honeycomb (" + std::to_string(count) +
-            ") are sampled as with --emission-sampling " +
-            std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them"};
+    const auto& polygons = scene.lights.of<scene::PolygonLight>();
+    const auto& environments = scene.lights.of<scene::EnvironmentLight>();
+    std::vector<std::string> warnings;
+    for (const LightsWithoutProducts& lights :
+         {LightsWithoutProducts{
+              "lights with a profile, a spread or a honeycomb",
+              std::count_if(polygons.begin(), polygons.end(), [](const auto& l) { return l.profile >= 0; })},
+          LightsWithoutProducts{"portals of environments with a map",
+                                std::count_if(environments.begin(), environments.end(), [](const auto& l) {
+                                    return l.portal.size() > 0 && l.map >= 0;
+                                })}})
+        if (lights.count > 0) warnings.push_back(warning_of(lights));
+    return warnings;
 }
 
 std::size_t VulkanBackend::layer_sum_bytes(const scene::Scene&, const render::RenderSettings&) const {

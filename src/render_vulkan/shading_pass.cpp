@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -27,7 +28,7 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether the scene has environments, or images of polygons decide where samples are, or are integrated: see
+/// Whether the scene has environments without a portal, or images of polygons decide where samples are, or are integrated: see
 /// shaders/passes/cells.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
     if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
@@ -38,14 +39,22 @@ bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }
 
+/// \throws std::runtime_error if the scene has lights whose integrals need windows
+void refuse_integrals(const std::vector<std::uint32_t>& constants) {
+    const auto refuse = [&](int constant, const char* lights) {
+        if (constants[static_cast<std::size_t>(constant)] != 0)
+            throw std::runtime_error(std::string(lights) +
+                                     " are not integrated on GPUs; use another technique or --backend cpu");
+    };
+    refuse(interface::kProfiledPolygonsConstant, "lights with a profile, a spread or a honeycomb");
+    refuse(interface::kMappedPortalsConstant, "portals of environments with a map");
+}
+
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    if (is_analytic(constants) && constants[interface::kProfiledPolygonsConstant] != 0)
-        throw std::runtime_error(
-            "lights with a profile, a spread or a honeycomb are not integrated on GPUs; use another "
-            "technique or --backend cpu");
+    if (is_analytic(constants)) refuse_integrals(constants);
     const ShaderVariant variant{scene.polygon_slots(), textures.access(), has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),

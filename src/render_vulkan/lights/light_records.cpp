@@ -17,13 +17,15 @@ constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, wri
                                   write_environments};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
-/// Shaders with cells have room for 8 vertices only: those for environments and for radiance that varies over polygons or along
-/// lines.
+/// Shaders with cells have room for 8 vertices only: those for environments without a portal and for radiance that varies over
+/// polygons or along lines.
 int polygon_slots_for(const scene::Scene& scene) {
     const auto& lines = scene.lights.of<scene::LineLight>();
     const auto& polygons = scene.lights.of<scene::PolygonLight>();
+    const auto& environments = scene.lights.of<scene::EnvironmentLight>();
     const bool are_small =
-        scene.lights.of<scene::EnvironmentLight>().empty() &&
+        std::all_of(environments.begin(), environments.end(),
+                    [](const auto& light) { return light.portal.size() > 0 && light.portal.size() <= 4; }) &&
         std::all_of(polygons.begin(), polygons.end(),
                     [](const auto& light) { return light.vertices.size() <= 4 && light.texture < 0; }) &&
         std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.texture < 0; });
