@@ -193,30 +193,18 @@ protected:
     }
 };
 
-TEST_F(Portals, AgreeWithTheCpu_WithAllHeuristics) {
+TEST_F(Portals, AgreeWithTheCpu) {
     const scene::Scene scene = make_portals(kWindow, kSkylight);
     VulkanRenderer renderer = renderer_of(scene);
     render::RenderSettings settings = measured();
     settings.strategies = Strategies::diffuse_ltc;
     settings.visibility_estimate = 0.8f;
-    for (const render::Mis mis :
-         {render::Mis::clamped_optimal, render::Mis::optimal, render::Mis::one_sample}) {
-        settings.mis = mis;
-        expect_agreement(renderer, scene, mirrored(scene), settings);
-        expect_agreement(renderer, scene, narrowed(scene), settings);
-    }
-}
-
-TEST_F(Portals, WithMoreThanFourCorners_AgreeWithTheCpu) {
-    const scene::Scene scene = make_portals(kWindow, kPentagon);
-    VulkanRenderer renderer = renderer_of(scene);
-    render::RenderSettings settings = measured();
-    settings.technique = Technique::area;
     expect_agreement(renderer, scene, mirrored(scene), settings);
+    settings.mis = render::Mis::optimal;
     expect_agreement(renderer, scene, narrowed(scene), settings);
 }
 
-/// Without a map, beside a sky without a portal.
+/// Without a map and with more than four corners, beside a sky without a portal.
 TEST_F(Portals, Integrated_AgreeWithTheCpu) {
     scene::Scene scene = make_portals({}, kPentagon);
     scene.lights.of<scene::EnvironmentLight>().front().map = -1;
