@@ -40,7 +40,9 @@ const int kPointProfilesConstant = kFirstLightConstant + 11;    ///< points that
 const int kProfiledPolygonsConstant = kFirstLightConstant + 12; ///< polygons whose radiance depends on the direction
 const int kUniformPortalsConstant = kFirstLightConstant + 13; ///< environments that shine through a portal
 const int kMappedPortalsConstant = kFirstLightConstant + 14;
-const int kConstantCount = kFirstLightConstant + 15;
+const int kProfiledLinesConstant = kFirstLightConstant + 15; ///< and strips, whose radiance depends on the direction
+const int kProfiledTubesConstant = kFirstLightConstant + 16;
+const int kConstantCount = kFirstLightConstant + 17;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -92,7 +94,9 @@ struct LineLightRecord {
     float normal[3]; ///< of strips
     float radiance[3]; ///< the mean if it varies
     float inverse_mean[3];   ///< of the radiance; 0 for channels that are black everywhere
-    uint first_profile_word; ///< emission word that its LineProfileWords begin with; kNoWords for uniform radiance
+    /// Emission word that its LineProfileWords begin with; kNoWords for the same radiance everywhere.
+    uint first_profile_word;
+    uint first_direction_word; ///< of interface/profiles.h, kNoWords for the same radiance in all directions
 };
 
 // Values of PointLightRecord::distribution, those of scene::PointDistribution.

@@ -28,8 +28,8 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether the scene has environments without a portal, or images of polygons decide where samples are, or are integrated: see
-/// shaders/passes/cells.
+/// Whether the scene has environments without a portal, or images of polygons decide where samples are, or are
+/// integrated: see shaders/passes/cells.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
     if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
         constants[interface::kMappedEnvironmentsConstant] != 0)
@@ -39,14 +39,16 @@ bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }
 
-/// \throws std::runtime_error if the scene has lights whose integrals need windows
+/// \throws std::runtime_error if the scene has lights that are integrated by cells that shaders do not have
 void refuse_integrals(const std::vector<std::uint32_t>& constants) {
     const auto refuse = [&](int constant, const char* lights) {
         if (constants[static_cast<std::size_t>(constant)] != 0)
             throw std::runtime_error(std::string(lights) +
                                      " are not integrated on GPUs; use another technique or --backend cpu");
     };
-    refuse(interface::kProfiledPolygonsConstant, "lights with a profile, a spread or a honeycomb");
+    for (const int constant : {interface::kProfiledPolygonsConstant, interface::kProfiledLinesConstant,
+                               interface::kProfiledTubesConstant})
+        refuse(constant, "lights with a profile, a spread or a honeycomb");
     refuse(interface::kMappedPortalsConstant, "portals of environments with a map");
 }
 

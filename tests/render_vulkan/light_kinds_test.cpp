@@ -6,6 +6,7 @@
 
 #include "render_vulkan/backend.h"
 #include "render_vulkan/scene_records.h"
+#include "scene/model/profiles/line_profile.h"
 
 #include <algorithm>
 #include <functional>
@@ -117,6 +118,20 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
               std::vector<int>{interface::kTexturedLinesConstant});
     EXPECT_EQ(shapes_with_texture(scene::TubeModel::solid),
               std::vector<int>{interface::kTexturedTubesConstant});
+    const auto shapes_with_profile = [&](scene::TubeModel model) {
+        scene::Scene other = render_test::make_floor(4);
+        scene::LineLight light = line;
+        light.model = model;
+        light.normal = {0, 0, 1};
+        light.profile = 0;
+        other.emission_profiles = scene::profile_line(light, {nullptr, 90, 0}).emissions;
+        other.lights.of<scene::LineLight>() = {light};
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_profile(scene::TubeModel::linear),
+              std::vector<int>{interface::kProfiledLinesConstant});
+    EXPECT_EQ(shapes_with_profile(scene::TubeModel::open),
+              std::vector<int>{interface::kProfiledTubesConstant});
     scene.lights.of<scene::PolygonLight>().resize(1);
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
                                                   interface::kTubesConstant}));

@@ -1,7 +1,8 @@
 #ifndef NUSSELT_PASSES_LIGHTS_ENVIRONMENT_INTEGRALS_GLSL
 #define NUSSELT_PASSES_LIGHTS_ENVIRONMENT_INTEGRALS_GLSL
-/// Integrals over all environments without a portal, in the shaders that scenes with such lights have. Each cell of a map has its
-/// mean radiance; all of a lobe counts, as if it were above the horizon. Those over portals are in polygon_integrals.glsl.
+/// Integrals over all environments without a portal, in the shaders that scenes with such lights have. Each cell of a
+/// map has its mean radiance; all of a lobe counts, as if it were above the horizon. Those over portals are in
+/// polygon_integrals.glsl.
 
 #if EMISSION_CELLS
 #include "passes/cells/environment_cells.glsl"

@@ -1,7 +1,8 @@
 #ifndef NUSSELT_PASSES_LIGHTS_PORTAL_GLSL
 #define NUSSELT_PASSES_LIGHTS_PORTAL_GLSL
-/// Portals of environments as a shading point sees them, as in src/render_cpu/kernel/lights/portal_light.h: polygons that light
-/// passes both ways. They follow polygonal lights in the same loop: drivers would compile all techniques for polygons twice.
+/// Portals of environments as a shading point sees them, as in src/render_cpu/kernel/lights/portal_light.h: polygons
+/// that light passes both ways. They follow polygonal lights in the same loop: drivers would compile all techniques for
+/// polygons twice.
 
 #include "passes/lights/environment.glsl"
 #include "passes/lights/polygon.glsl"

@@ -17,8 +17,8 @@ constexpr WriteLights kKinds[] = {write_polygons, write_lines, write_points, wri
                                   write_environments};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
-/// Shaders with cells have room for 8 vertices only: those for environments without a portal and for radiance that varies over
-/// polygons or along lines.
+/// Shaders with cells have room for 8 vertices only: those for environments without a portal and for radiance that varies
+/// over polygons or along lines.
 int polygon_slots_for(const scene::Scene& scene) {
     const auto& lines = scene.lights.of<scene::LineLight>();
     const auto& polygons = scene.lights.of<scene::PolygonLight>();

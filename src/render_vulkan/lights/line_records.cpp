@@ -2,6 +2,7 @@
 
 #include "render_vulkan/lights/emission_words.h"
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/lights/profile_words.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/vector_math.h"
@@ -9,9 +10,7 @@
 #include <nusselt/geometry/line_segment.h>
 #include <nusselt/line_emission/line_profile_words.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -31,6 +30,8 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
 /// The constant of the shape that a light is.
 int constant_of(const scene::LineLight& light) {
     const bool is_tube = light.model == TubeModel::solid || light.model == TubeModel::open;
+    if (light.profile >= 0)
+        return is_tube ? interface::kProfiledTubesConstant : interface::kProfiledLinesConstant;
     if (light.texture >= 0)
         return is_tube ? interface::kTexturedTubesConstant : interface::kTexturedLinesConstant;
     return is_tube ? interface::kTubesConstant : interface::kLinesConstant;
@@ -55,10 +56,8 @@ std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& lig
 bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto* const lines = dynamic_cast<const scene::LightsOf<scene::LineLight>*>(&list);
     if (lines == nullptr) return false;
-    if (std::any_of(lines->lights.begin(), lines->lights.end(),
-                    [](const auto& light) { return light.profile >= 0; }))
-        throw std::runtime_error(
-            "tubes and lines with a profile or a spread are not supported on GPUs; use --backend cpu");
+    std::vector<std::uint32_t>& words = records.array_at(interface::kEmissionWordsBinding).words;
+    ProfileWords directions(words);
     std::vector<interface::LineLightRecord> lights;
     for (const scene::LineLight& light : lines->lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));
@@ -73,9 +72,8 @@ bool write_lines(const scene::Scene& scene, const scene::LightList& list, LightR
         copy(scene::per_channel_ratio({1, 1, 1}, light.radiance), record.inverse_mean);
         records.has_shape_of(constant_of(light)) = true;
         record.first_profile_word =
-            light.texture < 0
-                ? interface::kNoWords
-                : add_profile(scene, light, records.array_at(interface::kEmissionWordsBinding).words);
+            light.texture < 0 ? interface::kNoWords : add_profile(scene, light, words);
+        record.first_direction_word = light.profile < 0 ? interface::kNoWords : directions.add(scene, light);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);
     return true;

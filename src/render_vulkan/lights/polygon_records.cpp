@@ -2,8 +2,8 @@
 
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/lights/polygon_corners.h"
-#include "render_vulkan/lights/polygon_profiles.h"
 #include "render_vulkan/lights/polygon_textures.h"
+#include "render_vulkan/lights/profile_words.h"
 #include "render_vulkan/record_values.h"
 
 namespace nusselt::render_vulkan {
@@ -42,7 +42,7 @@ bool write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     PolygonArrays arrays;
     LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
     emission.what = "emission that varies";
-    PolygonProfiles profiles(emission.words);
+    ProfileWords profiles(emission.words);
     for (const scene::PolygonLight& light : lights) {
         interface::PolygonLightRecord& record = arrays.lights.emplace_back(make_record(light, records));
         records.has_shape_of(constant_of(light)) = true;
