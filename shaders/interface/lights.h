@@ -38,12 +38,16 @@ const int kTexturedLinesConstant = kFirstLightConstant + 9; ///< and strips, who
 const int kTexturedTubesConstant = kFirstLightConstant + 10;
 const int kPointProfilesConstant = kFirstLightConstant + 11;    ///< points that shine as a luminaire
 const int kProfiledPolygonsConstant = kFirstLightConstant + 12; ///< polygons whose radiance depends on the direction
-const int kConstantCount = kFirstLightConstant + 13;
+const int kUniformPortalsConstant = kFirstLightConstant + 13; ///< environments that shine through a portal
+const int kMappedPortalsConstant = kFirstLightConstant + 14;
+const int kProfiledLinesConstant = kFirstLightConstant + 15; ///< and strips, whose radiance depends on the direction
+const int kProfiledTubesConstant = kFirstLightConstant + 16;
+const int kConstantCount = kFirstLightConstant + 17;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
 const int kPolygonLightsBinding = kFirstLightBinding;
-const int kPolygonCornersBinding = kFirstLightBinding + 1;
+const int kPolygonCornersBinding = kFirstLightBinding + 1; ///< of polygons and portals
 const int kLineLightsBinding = kFirstLightBinding + 2;
 const int kPointLightsBinding = kFirstLightBinding + 3;
 const int kDistantLightsBinding = kFirstLightBinding + 4;
@@ -56,6 +60,7 @@ struct PolygonLightRecord {
     float normal[3];
     float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
+    uint first_corner_word;
     int texture_number;      ///< index of its PolygonTextureRecord, -1 for none
     uint first_profile_word; ///< of interface/profiles.h, kNoWords for none
 };
@@ -89,7 +94,9 @@ struct LineLightRecord {
     float normal[3]; ///< of strips
     float radiance[3]; ///< the mean if it varies
     float inverse_mean[3];   ///< of the radiance; 0 for channels that are black everywhere
-    uint first_profile_word; ///< emission word that its LineProfileWords begin with; kNoWords for uniform radiance
+    /// Emission word that its LineProfileWords begin with; kNoWords for the same radiance everywhere.
+    uint first_profile_word;
+    uint first_direction_word; ///< of interface/profiles.h, kNoWords for the same radiance in all directions
 };
 
 // Values of PointLightRecord::distribution, those of scene::PointDistribution.
@@ -127,6 +134,8 @@ struct EnvironmentLightRecord {
     float z_axis[3];
     float radiance[3]; ///< the mean if there is a map
     uint first_map_word; ///< emission word that its EnvironmentMapWords begin with, after its texels; kNoWords for none
+    float normal[3];     ///< of the portal
+    uint first_corner_word; ///< of the portal, kNoWords without one
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace nusselt::render_vulkan {
 
@@ -24,16 +26,36 @@ void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame
     }
 }
 
-/// Whether the CPU would sample lights with a profile in proportion to it: takes_windowed_products() of its kernel, for the
-/// strategies that have products.
-bool asks_for_windowed_products(const render::RenderSettings& settings) {
+/// Whether the CPU would sample profiles of lines in proportion to their radiance: takes_products() of its kernel.
+bool asks_for_products(const render::RenderSettings& settings) {
     using render::Technique;
-    if (settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal)
-        return false;
     return settings.emission_sampling == render::EmissionSampling::product &&
-           !samples_visible_normals(settings.strategies) &&
            (settings.technique == Technique::projected_solid_angle ||
             settings.technique == Technique::projected_solid_angle_biased);
+}
+
+/// The same for profiles of polygons and for portals: takes_windowed_products(), for the strategies that have products.
+bool asks_for_windowed_products(const render::RenderSettings& settings) {
+    const bool is_optimal =
+        settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal;
+    return asks_for_products(settings) && !is_optimal && !samples_visible_normals(settings.strategies);
+}
+
+/// Lights that are sampled by their measure, although settings ask for products.
+struct LightsWithoutProducts {
+    std::string_view name;
+    std::ptrdiff_t count;
+};
+
+/// Tubes are sampled by their measure on the CPU, too.
+bool has_no_extent(const scene::LineLight& light) {
+    return light.model == scene::TubeModel::linear || light.model == scene::TubeModel::strip;
+}
+
+std::string warning_of(const LightsWithoutProducts& lights) {
+    return std::string(lights.name) + " (" + std::to_string(lights.count) +
+           ") are sampled as with --emission-sampling " +
+           std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them";
 }
 
 class VulkanScene final : public render::PreparedScene {
@@ -78,14 +100,29 @@ std::optional<std::string> VulkanBackend::why_unsupported(const scene::Scene& sc
 
 std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,
                                                  const render::RenderSettings& settings) const {
-    if (!asks_for_windowed_products(settings)) return {};
-    const std::vector<scene::PolygonLight>& lights = scene.lights.of<scene::PolygonLight>();
-    const auto count =
-        std::count_if(lights.begin(), lights.end(), [](const auto& light) { return light.profile >= 0; });
-    if (count == 0) return {};
-    return {"lights with a profile, a spread or a honeycomb (" + std::to_string(count) +
-            ") are sampled as with --emission-sampling " +
-            std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them"};
+    const auto count = [](const auto& lights, const auto& is_replaced) {
+        return std::count_if(lights.begin(), lights.end(), is_replaced);
+    };
+    std::vector<LightsWithoutProducts> replaced;
+    if (asks_for_products(settings))
+        replaced = {{"linear lights and strips with a profile or a spread",
+                     count(scene.lights.of<scene::LineLight>(), [](const scene::LineLight& light) {
+                         return light.profile >= 0 && has_no_extent(light);
+                     })}};
+    if (asks_for_windowed_products(settings)) {
+        replaced.push_back({"polygons with a profile, a spread or a honeycomb",
+                            count(scene.lights.of<scene::PolygonLight>(),
+                                  [](const scene::PolygonLight& light) { return light.profile >= 0; })});
+        replaced.push_back(
+            {"portals of environments with a map",
+             count(scene.lights.of<scene::EnvironmentLight>(), [](const scene::EnvironmentLight& light) {
+                 return light.portal.size() > 0 && light.map >= 0;
+             })});
+    }
+    std::vector<std::string> warnings;
+    for (const LightsWithoutProducts& lights : replaced)
+        if (lights.count > 0) warnings.push_back(warning_of(lights));
+    return warnings;
 }
 
 std::size_t VulkanBackend::layer_sum_bytes(const scene::Scene&, const render::RenderSettings&) const {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -27,8 +28,8 @@ bool is_analytic(const std::vector<std::uint32_t>& constants) {
            static_cast<std::uint32_t>(render::Technique::ltc_analytic);
 }
 
-/// Whether the scene has environments, or images of polygons decide where samples are, or are integrated: see
-/// shaders/passes/cells.
+/// Whether the scene has environments without a portal, or images of polygons decide where samples are, or are
+/// integrated: see shaders/passes/cells.
 bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
     if (constants[interface::kUniformEnvironmentsConstant] != 0 ||
         constants[interface::kMappedEnvironmentsConstant] != 0)

@@ -24,8 +24,8 @@ ShadingPassKind sampling_pass(ShadowRays way);
 struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see LightRecords
     TextureAccess textures;
-    bool
-        emission_cells; ///< for environments and where images of polygons decide where samples are: with 8 slots only
+    /// For environments without a portal and where images of polygons decide where samples are: with 8 slots only.
+    bool emission_cells;
     bool operator==(const ShaderVariant&) const = default;
 };
 

@@ -8,9 +8,39 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-bool has_profiled_polygons(const scene::Scene& scene) {
-    const auto& lights = scene.lights.of<scene::PolygonLight>();
-    return std::any_of(lights.begin(), lights.end(), [](const auto& light) { return light.profile >= 0; });
+/// Lights whose integrals take cells that shaders do not have.
+struct LightsWithoutIntegral {
+    bool profiles, mapped_portals;
+};
+
+LightsWithoutIntegral without_integral(const SceneKinds& kinds) {
+    const auto has = [&](int constant) {
+        return kinds.lights.at(static_cast<std::size_t>(constant - interface::kFirstLightConstant));
+    };
+    return {has(interface::kProfiledPolygonsConstant) || has(interface::kProfiledLinesConstant) ||
+                has(interface::kProfiledTubesConstant),
+            has(interface::kMappedPortalsConstant)};
+}
+
+LightsWithoutIntegral without_integral(const scene::Lights& lights) {
+    const auto has_profile = [](const auto& light) { return light.profile >= 0; };
+    const auto is_mapped_portal = [](const auto& light) { return light.map >= 0 && light.portal.size() > 0; };
+    const auto& polygons = lights.of<scene::PolygonLight>();
+    const auto& lines = lights.of<scene::LineLight>();
+    const auto& environments = lights.of<scene::EnvironmentLight>();
+    return {std::any_of(polygons.begin(), polygons.end(), has_profile) ||
+                std::any_of(lines.begin(), lines.end(), has_profile),
+            std::any_of(environments.begin(), environments.end(), is_mapped_portal)};
+}
+
+std::optional<std::string> why_unsupported(const LightsWithoutIntegral& lights,
+                                           const render::RenderSettings& settings) {
+    if (settings.technique == render::Technique::ltc_analytic && lights.profiles)
+        return "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
+               "honeycomb";
+    if (settings.technique == render::Technique::ltc_analytic && lights.mapped_portals)
+        return "--technique ltc_analytic is not supported on GPUs for portals of environments with an image";
+    return why_unsupported(settings);
 }
 
 } // namespace
@@ -26,21 +56,13 @@ std::optional<std::string> why_unsupported(const render::RenderSettings& setting
 }
 
 std::optional<std::string> why_unsupported(const SceneKinds& kinds, const render::RenderSettings& settings) {
-    const bool has_profiles =
-        kinds.lights[interface::kProfiledPolygonsConstant - interface::kFirstLightConstant];
-    if (has_profiles && settings.technique == render::Technique::ltc_analytic)
-        return "--technique ltc_analytic is not supported on GPUs for polygons with a profile, a spread or a "
-               "honeycomb";
-    return why_unsupported(settings);
+    return why_unsupported(without_integral(kinds), settings);
 }
 
 std::optional<std::string> why_unsupported(const scene::Scene& scene,
                                            const render::RenderSettings& settings) {
     if (auto reason = why_unsupported(scene.lights)) return reason;
-    SceneKinds kinds;
-    kinds.lights[interface::kProfiledPolygonsConstant - interface::kFirstLightConstant] =
-        has_profiled_polygons(scene);
-    return why_unsupported(kinds, settings);
+    return why_unsupported(without_integral(scene.lights), settings);
 }
 
 } // namespace nusselt::render_vulkan

@@ -216,10 +216,6 @@ TEST_F(Agreement, OfShippedScenes) {
         SCOPED_TRACE(entry.path().filename());
         scene::Scene scene = scene::load_scene(entry.path());
         render::resize_film(scene, kWidth, kHeight);
-        if (render_vulkan::why_unsupported(scene, settings.front())) {
-            EXPECT_THROW(VulkanRenderer(device(), scene, ShadowRays::bvh), std::runtime_error);
-            continue;
-        }
         for (const lab::ImageAgreement& row :
              lab::compare_with_cpu(device(), scene, std::array{ShadowRays::bvh}, settings)) {
             EXPECT_TRUE(row.passes()) << row.share << ", " << row.rejected_samples;

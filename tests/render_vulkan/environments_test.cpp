@@ -5,6 +5,7 @@
 #include "rich_scene.h"
 #include "scenes.h"
 
+#include "render_vulkan/backend.h"
 #include "render_vulkan/lights/light_records.h"
 
 #include <algorithm>
@@ -154,15 +155,100 @@ TEST(EnvironmentRecords, HaveTheWordsOfMaps) {
     EXPECT_GT(records.array_at(interface::kEmissionWordsBinding).words.size(), of_texels);
 }
 
-TEST(EnvironmentRecords, RefusePortals) {
-    scene::Scene scene = make_scene(4, 4);
-    scene.lights.of<scene::EnvironmentLight>().front().portal = {{0, 0, 3}, {1, 0, 3}, {0, 1, 3}};
-    try {
-        static_cast<void>(render_vulkan::make_light_records(scene));
-        ADD_FAILURE() << "accepted";
-    } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "environments with a portal are not supported on GPUs; use --backend cpu");
+/// Two portals that the camera sees: of a sky with a map, and of one that is the same everywhere.
+scene::Scene make_portals(const scene::PolygonVertices& first, const scene::PolygonVertices& second) {
+    scene::Scene scene = make_scene(kWidth, kHeight);
+    auto& lights = scene.lights.of<scene::EnvironmentLight>();
+    lights.resize(2);
+    lights[0].portal = first;
+    lights[1].portal = second;
+    return scene;
+}
+
+const scene::PolygonVertices kWindow = {
+    {2.1f, -1, 0.4f}, {2.1f, 1.5f, 0.4f}, {2.1f, 1.5f, 2.4f}, {2.1f, -1, 2.4f}};
+const scene::PolygonVertices kSkylight = {{-1, 1.8f, 2.6f}, {1, 1.8f, 2.6f}, {0.4f, 0.2f, 3.4f}};
+const scene::PolygonVertices kPentagon = {
+    {-1, 1.8f, 2.6f}, {1, 1.8f, 2.6f}, {1.2f, 1, 3}, {0.4f, 0.2f, 3.4f}, {-0.4f, 0.2f, 3.4f}};
+
+/// The same scene, but the map behind its first portal is a mirror image.
+scene::Scene mirrored(scene::Scene scene) {
+    scene.lights.of<scene::EnvironmentLight>().front().x_axis = {-1, 0, 0};
+    return scene;
+}
+
+/// The same scene, but its last portal is a little smaller.
+scene::Scene narrowed(scene::Scene scene) {
+    scene::PolygonVertices& portal = scene.lights.of<scene::EnvironmentLight>().back().portal;
+    portal[0].x += 0.2f;
+    return scene;
+}
+
+class Portals : public EmissionTest {
+protected:
+    static render::RenderSettings measured() {
+        render::RenderSettings settings = centred();
+        settings.emission_sampling = render::EmissionSampling::measure;
+        return settings;
     }
+};
+
+TEST_F(Portals, AgreeWithTheCpu) {
+    const scene::Scene scene = make_portals(kWindow, kSkylight);
+    VulkanRenderer renderer = renderer_of(scene);
+    render::RenderSettings settings = measured();
+    settings.strategies = Strategies::diffuse_ltc;
+    settings.visibility_estimate = 0.8f;
+    expect_agreement(renderer, scene, mirrored(scene), settings);
+    settings.mis = render::Mis::optimal;
+    expect_agreement(renderer, scene, narrowed(scene), settings);
+}
+
+/// Without a map and with more than four corners, beside a sky without a portal.
+TEST_F(Portals, Integrated_AgreeWithTheCpu) {
+    scene::Scene scene = make_portals({}, kPentagon);
+    scene.lights.of<scene::EnvironmentLight>().front().map = -1;
+    VulkanRenderer renderer = renderer_of(scene);
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::ltc_analytic;
+    expect_agreement(renderer, scene, narrowed(scene), settings);
+}
+
+TEST_F(Portals, WithAMap_AreNotIntegrated) {
+    const scene::Scene scene = make_portals(kWindow, kSkylight);
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::ltc_analytic;
+    EXPECT_EQ(render_vulkan::why_unsupported(scene, settings),
+              "--technique ltc_analytic is not supported on GPUs for portals of environments with an image");
+    EXPECT_EQ(render_vulkan::why_unsupported(scene, centred()), std::nullopt);
+    VulkanRenderer renderer = renderer_of(scene);
+    EXPECT_THROW(renderer.render(settings), std::invalid_argument);
+}
+
+/// Without a map, samples by the measure are those by the product.
+TEST_F(Portals, WithAMap_HaveAWarningWhereTheyAreSampledByTheirMeasureInPlaceOfProducts) {
+    const render_vulkan::VulkanBackend backend({.validation = gpu::Validation::on},
+                                               render_vulkan::ShadowRays::none);
+    const scene::Scene scene = make_portals(kWindow, kSkylight);
+    EXPECT_EQ(backend.warnings(scene, {}),
+              std::vector<std::string>{"portals of environments with a map (1) are sampled as with "
+                                       "--emission-sampling measure: GPUs have no other samples of them"});
+    EXPECT_EQ(backend.warnings(scene, measured()), std::vector<std::string>());
+    EXPECT_EQ(backend.warnings(make_portals({}, kSkylight), {}), std::vector<std::string>());
+}
+
+TEST(EnvironmentRecords, HaveRoomForTheCornersOfPortals) {
+    const auto expect_room = [](const scene::PolygonVertices& first, const scene::PolygonVertices& second,
+                                int slots, std::size_t portals) {
+        render_vulkan::LightRecords records = render_vulkan::make_light_records(make_portals(first, second));
+        EXPECT_EQ(records.polygon_slots, slots);
+        EXPECT_GE(records.array_at(interface::kPolygonCornersBinding).words.size(),
+                  portals * 6 * static_cast<std::size_t>(slots));
+    };
+    expect_room(kWindow, kSkylight, 4, 2);
+    expect_room(kWindow, kPentagon, 8, 2);
+    // The slots of the only shaders for environments without a portal.
+    expect_room({}, kSkylight, 8, 1);
 }
 
 } // namespace

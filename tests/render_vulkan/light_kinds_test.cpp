@@ -6,6 +6,7 @@
 
 #include "render_vulkan/backend.h"
 #include "render_vulkan/scene_records.h"
+#include "scene/model/profiles/line_profile.h"
 
 #include <algorithm>
 #include <functional>
@@ -120,6 +121,20 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
               std::vector<int>{interface::kTexturedLinesConstant});
     EXPECT_EQ(shapes_with_texture(scene::TubeModel::solid),
               std::vector<int>{interface::kTexturedTubesConstant});
+    const auto shapes_with_profile = [&](scene::TubeModel model) {
+        scene::Scene other = render_test::make_floor(4);
+        scene::LineLight light = line;
+        light.model = model;
+        light.normal = {0, 0, 1};
+        light.profile = 0;
+        other.emission_profiles = scene::profile_line(light, {nullptr, 90, 0}).emissions;
+        other.lights.of<scene::LineLight>() = {light};
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_profile(scene::TubeModel::linear),
+              std::vector<int>{interface::kProfiledLinesConstant});
+    EXPECT_EQ(shapes_with_profile(scene::TubeModel::open),
+              std::vector<int>{interface::kProfiledTubesConstant});
     scene.lights.of<scene::PolygonLight>().resize(1);
     EXPECT_EQ(shapes_of(scene), (std::vector<int>{interface::kPolygonsConstant, interface::kLinesConstant,
                                                   interface::kTubesConstant}));
@@ -133,18 +148,23 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
     EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointsConstant});
     point.distribution = scene::PointDistribution::projected_image;
     EXPECT_EQ(shapes_with_point(), std::vector<int>{interface::kPointImagesConstant});
-    const auto shapes_with_environment = [&](std::int32_t map) {
+    const auto shapes_with_environment = [&](std::int32_t map, const scene::PolygonVertices& portal) {
         scene::Scene other = render_test::make_floor(4);
         scene::EnvironmentMapTexels texels{"black", 16, {}, {0, 0, 0}};
         texels.texels.resize(16 * 16);
         other.environment_maps = {std::make_shared<const scene::EnvironmentMapTexels>(texels)};
         scene::EnvironmentLight light;
         light.map = map;
+        light.portal = portal;
         other.lights.of<scene::EnvironmentLight>() = {light};
         return shapes_of(other);
     };
-    EXPECT_EQ(shapes_with_environment(-1), std::vector<int>{interface::kUniformEnvironmentsConstant});
-    EXPECT_EQ(shapes_with_environment(0), std::vector<int>{interface::kMappedEnvironmentsConstant});
+    EXPECT_EQ(shapes_with_environment(-1, {}), std::vector<int>{interface::kUniformEnvironmentsConstant});
+    EXPECT_EQ(shapes_with_environment(0, {}), std::vector<int>{interface::kMappedEnvironmentsConstant});
+    EXPECT_EQ(shapes_with_environment(-1, polygon.vertices),
+              std::vector<int>{interface::kUniformPortalsConstant});
+    EXPECT_EQ(shapes_with_environment(0, polygon.vertices),
+              std::vector<int>{interface::kMappedPortalsConstant});
     scene.lights.of<scene::PointLight>() = {point, point};
     scene.lights.of<scene::DistantLight>().resize(3);
 
@@ -160,7 +180,9 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
         return sizeof(std::uint32_t) * lights.array_at(binding).words.size();
     };
     EXPECT_EQ(bytes_at(interface::kPolygonLightsBinding), sizeof(interface::PolygonLightRecord));
-    EXPECT_EQ(bytes_at(interface::kPolygonCornersBinding), 2 * 4 * sizeof(scene::Float3));
+    EXPECT_EQ(bytes_at(interface::kPolygonCornersBinding),
+              2 * 4 * sizeof(scene::Float3) + sizeof(std::uint32_t))
+        << "vertices and edges after the first word of all arrays";
     EXPECT_EQ(bytes_at(interface::kLineLightsBinding), 3 * sizeof(interface::LineLightRecord));
     EXPECT_EQ(bytes_at(interface::kPointLightsBinding), 2 * sizeof(interface::PointLightRecord));
     EXPECT_EQ(bytes_at(interface::kDistantLightsBinding), 3 * sizeof(interface::DistantLightRecord));

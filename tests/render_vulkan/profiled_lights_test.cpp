@@ -1,10 +1,13 @@
-/// Polygonal lights whose radiance depends on the direction: the GPU renders the image of the CPU.
+/// Lights whose radiance depends on the direction: the GPU renders the image of the CPU.
 
 #include "emission_test.h"
 #include "render_vulkan/backend.h"
 #include "rich_scene.h"
 #include "scene/model/profiles/emission_profile.h"
+#include "scene/model/profiles/line_profile.h"
+#include "scenes.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -58,7 +61,72 @@ scene::Scene make_polygon_scene(int width, int height, double angle, double hole
     return scene;
 }
 
-class ProfiledLights : public EmissionTest {};
+/// Gives a light a profile and adds it. \param light with a normal
+void add_line(scene::Scene& scene, scene::LineLight light, const scene::ProfileRequest& request) {
+    light.profile = static_cast<std::int32_t>(scene.emission_profiles.size());
+    scene.emission_profiles.push_back(scene::profile_line(light, request).emissions.at(0));
+    render_test::add_line_light(scene, "light", light);
+}
+
+scene::Scene make_room() {
+    scene::Scene scene = make_plain_scene(kWidth, kHeight);
+    scene.lights.clear();
+    scene.emitters.clear();
+    std::fill(scene.triangle_light.begin(), scene.triangle_light.end(), -1);
+    return scene;
+}
+
+/// Linear lights, one that shines as a luminaire and one with a spread, and strips with both, which the camera sees.
+scene::Scene make_lines(double angle, double spread) {
+    scene::Scene scene = make_room();
+    scene::LineLight line{.start = {-1.5f, -1, 0.6f},
+                          .end = {-1.4f, 1, 1.8f},
+                          .radius = 0.02f,
+                          .radiance = {20, 15, 10},
+                          .model = scene::TubeModel::linear};
+    line.normal = scene::perpendicular_to_line(line, {0.8, 0, -0.6});
+    add_line(scene, line, {make_luminaire(), scene::kWidestSpread, angle});
+    scene::LineLight beam = line;
+    beam.start.x += 2.5f;
+    beam.normal = scene::perpendicular_to_line(beam, {0, 0, 1});
+    add_line(scene, beam, {nullptr, spread, 0});
+    scene::LineLight strip{.start = {-0.9f, 1.5f, 1},
+                           .end = {0.9f, 1.4f, 1.2f},
+                           .radius = 0.05f,
+                           .radiance = {20, 10, 30},
+                           .model = scene::TubeModel::strip};
+    strip.normal = scene::perpendicular_to_line(strip, {0, -0.8, 0.6});
+    add_line(scene, strip, {make_luminaire(), 150, 20});
+    return scene;
+}
+
+/// Tubes that the camera sees, with bright and with dark caps.
+scene::Scene make_tubes(double angle, double spread) {
+    scene::Scene scene = make_room();
+    scene::LineLight tube{.start = {-1, 1, 2}, .end = {1, 1.2f, 2.2f}, .radius = 0.1f, .radiance = {5, 5, 6}};
+    tube.normal = scene::perpendicular_to_line(tube, {0, -1, -1});
+    add_line(scene, tube, {make_luminaire(), scene::kWidestSpread, angle});
+    scene::LineLight open{.start = {0.2f, -0.6f, 0.4f},
+                          .end = {0.3f, -0.5f, 1.7f},
+                          .radius = 0.12f,
+                          .radiance = {4, 6, 4},
+                          .model = scene::TubeModel::open};
+    open.normal = scene::perpendicular_to_line(open, {-1, 0, 0});
+    add_line(scene, open, {nullptr, spread, 0});
+    return scene;
+}
+
+class ProfiledLights : public EmissionTest {
+protected:
+    /// A profile that is turned and a spread that is wider are the tests of the test.
+    void expect_agreement_of(scene::Scene (&make)(double angle, double spread),
+                             const render::RenderSettings& settings) const {
+        const scene::Scene scene = make(30, 120);
+        VulkanRenderer renderer = renderer_of(scene);
+        expect_agreement(renderer, scene, make(50, 120), settings);
+        expect_agreement(renderer, scene, make(30, 140), settings);
+    }
+};
 
 render::RenderSettings centred() {
     render::RenderSettings settings;
@@ -77,17 +145,32 @@ TEST_F(ProfiledLights, SampledByTheirMeasure_AgreeWithTheCpu) {
     expect_agreement(renderer, scene, make_polygon_scene(kWidth, kHeight, 30, 60), settings);
 }
 
+TEST_F(ProfiledLights, WithoutExtent_AgreeWithTheCpu) {
+    render::RenderSettings settings = centred();
+    settings.strategies = Strategies::diffuse_ltc;
+    expect_agreement_of(make_lines, settings);
+}
+
+TEST_F(ProfiledLights, OfTubes_AgreeWithTheCpu) {
+    render::RenderSettings settings = centred();
+    settings.technique = Technique::solid_angle;
+    expect_agreement_of(make_tubes, settings);
+}
+
 TEST_F(ProfiledLights, AreNotIntegrated) {
     render::RenderSettings settings = centred();
     settings.technique = Technique::ltc_analytic;
-    const scene::Scene scene = make_polygon_scene(8, 8, 30);
-    EXPECT_EQ(render_vulkan::why_unsupported(scene, settings),
-              "--technique ltc_analytic is not supported on GPUs for polygons with a profile, a spread or a "
-              "honeycomb");
-    EXPECT_EQ(render_vulkan::why_unsupported(scene, centred()), std::nullopt);
+    for (const scene::Scene& scene :
+         {make_polygon_scene(8, 8, 30), make_lines(30, 100), make_tubes(30, 100)}) {
+        EXPECT_EQ(
+            render_vulkan::why_unsupported(scene, settings),
+            "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
+            "honeycomb");
+        EXPECT_EQ(render_vulkan::why_unsupported(scene, centred()), std::nullopt);
+        VulkanRenderer renderer = renderer_of(scene);
+        EXPECT_THROW(renderer.render(settings), std::invalid_argument);
+    }
     EXPECT_EQ(render_vulkan::why_unsupported(make_plain_scene(8, 8), settings), std::nullopt);
-    VulkanRenderer renderer = renderer_of(scene);
-    EXPECT_THROW(renderer.render(settings), std::invalid_argument);
 }
 
 TEST_F(ProfiledLights, HaveAWarningWhereTheyAreSampledByTheirMeasureInPlaceOfProducts) {
@@ -103,7 +186,12 @@ TEST_F(ProfiledLights, HaveAWarningWhereTheyAreSampledByTheirMeasureInPlaceOfPro
     EXPECT_EQ(backend.warnings(scene, settings).size(), 1u);
     settings.mis = render::Mis::optimal; // the CPU does not either
     EXPECT_EQ(backend.warnings(scene, settings).size(), 0u);
+    EXPECT_EQ(backend.warnings(make_lines(30, 100), settings).size(), 1u);
+    settings.strategies = Strategies::diffuse_ggx;
+    EXPECT_EQ(backend.warnings(make_lines(30, 100), settings).size(), 1u);
     settings = {};
+    EXPECT_EQ(backend.warnings(make_tubes(30, 100), settings).size(), 0u)
+        << "the CPU samples them by their measure";
     for (scene::PolygonLight& light : scene.lights.of<scene::PolygonLight>()) light.profile = -1;
     EXPECT_EQ(backend.warnings(scene, settings).size(), 0u);
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_CELLS_ENVIRONMENT_CELL_SAMPLES_GLSL
 #define NUSSELT_PASSES_CELLS_ENVIRONMENT_CELL_SAMPLES_GLSL
-/// Samples of environments. There is one way for all settings: radiance times a measure.
+/// Samples of environments without a portal. There is one way for all settings: radiance times a measure.
 
 #include "passes/cells/environment_cells.glsl"
 #include "passes/lights/techniques.glsl"
@@ -88,7 +88,8 @@ vec3 cells_point(Sky sky, TexturedSample s) { return (4.0 * scene.radius) * s.wi
 void add_environments(inout Estimate estimate) {
     GlossySurface glossy = estimate.reflection.glossy;
     bool is_paired = kStrategies == kStrategiesDiffuseLtc && glossy_surface_is_glossy(glossy);
-    for (uint i = first_index(kEnvironmentKind); kHasEnvironments && i < end_index(kEnvironmentKind); ++i) {
+    for (uint i = first_index(kEnvironmentKind); kHasSkies && i < end_index(kEnvironmentKind); ++i) {
+        if (has_portal(i)) continue;
         Sky sky = prepare_sky(i, estimate.surface.shading, glossy.lobe, is_paired);
         vec3 emission = has_map(sky) ? vec3(1.0) : to_vec(environment_lights[i].radiance);
         add_cells(estimate, light_number(kEnvironmentKind, i), sky, is_paired, emission);

@@ -6,7 +6,7 @@
 
 void add_polygon(inout Reflected reflected, LocalPolygon light) {
     if (light.texture_number < 0) {
-        if (kHasPolygons) add_light(reflected, light.role, lobe_integrals(light, reflected.glossy.lobe));
+        if (kHasPolygons || kHasPortals) add_light(reflected, light.role, lobe_integrals(light.shape, reflected.glossy.lobe));
         return;
     }
     bool is_glossy = glossy_surface_is_glossy(reflected.glossy);

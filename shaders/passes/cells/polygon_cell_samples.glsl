@@ -77,7 +77,7 @@ vec3 cells_point(PolygonCells cells, TexturedSample s) { return s.p; }
 
 void add_polygon(inout Estimate estimate, LocalPolygon light) {
     if (!kHasCellSamples || light.texture_number < 0) {
-        if (kHasPolygons || kHasProfiledPolygons || !kHasCellSamples) add_light(estimate, light);
+        if (kHasPolygons || kHasProfiledPolygons || kHasPortals || !kHasCellSamples) add_light(estimate, light);
         return;
     }
     if (!light.role.is_lit) return;

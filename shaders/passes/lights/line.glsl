@@ -9,13 +9,14 @@
 #include "nusselt/geometry/cylinder_caps.glsl"
 #include "nusselt/geometry/strip.glsl"
 #include "passes/lights/light_role.glsl"
+#include "passes/lights/line_directions.glsl"
 #include "passes/lights/line_profile.glsl"
 
-// Linear lights and strips have no extent. Those whose radiance varies count apart.
+// Linear lights and strips have no extent. Those whose radiance varies or depends on the direction count apart.
 layout(constant_id = kLinesConstant) const bool kHasLines = true;
 layout(constant_id = kTubesConstant) const bool kHasTubes = true;
-const bool kHasAnyLines = kHasLines || kHasTexturedLines;
-const bool kHasAnyTubes = kHasTubes || kHasTexturedTubes;
+const bool kHasAnyLines = kHasLines || kHasTexturedLines || kHasProfiledLines;
+const bool kHasAnyTubes = kHasTubes || kHasTexturedTubes || kHasProfiledTubes;
 
 layout(set = 0, binding = kLineLightsBinding, std430) readonly buffer LineLights { LineLightRecord line_lights[]; };
 
@@ -25,6 +26,7 @@ struct LocalLine {
     float radius; ///< for tubes
     float width;  ///< the emission over the radiance
     LineRadiance radiance;
+    LineDirections directions;
     LightRole role;
 };
 
@@ -32,13 +34,16 @@ struct LocalTube {
     Cylinder shape; ///< in shading space
     bool is_open;   ///< with dark caps
     LineRadiance radiance;
+    LineDirections directions;
     LightRole role;
 };
 
-bool is_tube(LocalLine light) { return light.model == kSolidTube || light.model == kOpenTube; }
+bool is_tube(uint model) { return model == kSolidTube || model == kOpenTube; }
+bool is_tube(LocalLine light) { return is_tube(light.model); }
 
 LocalTube tube_of(LocalLine light) {
-    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.role);
+    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.directions,
+                     light.role);
 }
 
 /// \param index among the lines and tubes
@@ -50,6 +55,7 @@ LocalLine local_line(Surface surface, uint index) {
     light.model = record.model;
     light.radius = record.radius;
     light.radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
+    light.directions = local_directions(record.first_direction_word, surface.shading);
     vec3 s = light.shape.s;
     float highest = nusselt_max(light.shape.p0.z, light.shape.p0.z + light.shape.len * s.z);
     light.width = 1.0;
@@ -77,6 +83,24 @@ float place_along(LineLightRecord record, Cylinder tube, vec3 wi) {
     return place_along(axis, nusselt_fma(-dot(axis.p0, across) / dot(axis.s, across), axis.s, axis.p0));
 }
 
+/// The part of a vector from the start of a line that is perpendicular to it.
+vec3 across(LineSegment axis, vec3 p) {
+    vec3 from_start = p - axis.p0;
+    return from_start - dot(from_start, axis.s) * axis.s;
+}
+
+/// The radiance of a light with a profile over its mean. \param wi unit, towards the light
+float relative_radiance(LineLightRecord record, Cylinder tube, vec3 wi) {
+    uint profile = record.first_direction_word;
+    LineDirections directions = LineDirections(profile, profile_axes(profile));
+    LightHit hit = intersect(tube, wi);
+    // Beside the round cylinder, cameras see no normal.
+    if (!is_tube(record.model) || !hit.hits)
+        return radiance_of_line(directions, record.model == kStrip, tube.axis.s, -wi);
+    vec3 normal = meets_cap(tube, wi) ? tube.axis.s : nusselt_normalize(across(tube.axis, hit.distance * wi));
+    return radiance_of_tube(directions, abs(dot(normal, wi)), -wi);
+}
+
 /// The radiance along a ray that meets the light.
 vec3 line_emission(uint index, Ray ray) {
     LineLightRecord record = line_lights[index];
@@ -84,6 +108,8 @@ vec3 line_emission(uint index, Ray ray) {
     Cylinder tube = Cylinder(axis, record.radius);
     vec3 wi = nusselt_normalize(ray.direction);
     if (record.model == kOpenTube && meets_cap(tube, wi)) return vec3(0.0);
+    if ((kHasProfiledLines || kHasProfiledTubes) && record.first_direction_word != kNoWords)
+        return relative_radiance(record, tube, wi) * to_vec(record.radiance);
     LineRadiance radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
     if (!varies(radiance)) return to_vec(record.radiance);
     return line_profile_lookup(radiance.profile, place_along(record, tube, wi));

@@ -99,15 +99,25 @@ vec2 techniques_integrals(TubeTechniques self) {
                 cylinder_ltc_measure(self.ltc));
 }
 
-/// Multiplies a sample by the radiance at its point over the mean.
+/// Multiplies a sample by the radiance at its point and in its direction over the mean.
 void modulate(LocalLine light, inout DirectLightSample s) {
+    if (kHasProfiledLines && depends_on_direction(light.directions))
+        s.shadowed = radiance_of_line(light.directions, light.model == kStrip, light.shape.s, -s.wi) * s.shadowed;
     if (kHasTexturedLines && varies(light.radiance))
         s.shadowed = relative_radiance(light.radiance, light.shape, s.p) * s.shadowed;
 }
 /// Likewise. Samples on a part of the light that does not shine count like those in shadow.
 void modulate(LocalTube light, inout DirectLightSample s) {
+    LineSegment axis = light.shape.axis;
     if (kHasTexturedTubes && varies(light.radiance))
-        s.shadowed = relative_radiance(light.radiance, light.shape.axis, s.p) * s.shadowed;
+        s.shadowed = relative_radiance(light.radiance, axis, s.p) * s.shadowed;
+    if (kHasProfiledTubes && depends_on_direction(light.directions)) {
+        // With the normal of a cap, or of the lateral surface.
+        vec3 away = across(axis, s.p);
+        float lateral = -dot(away, s.wi) / sqrt(nusselt_max(dot(away, away), kNusseltTiny));
+        float cosine = meets_cap(light.shape, s.wi) ? abs(dot(axis.s, s.wi)) : lateral;
+        s.shadowed = radiance_of_tube(light.directions, cosine, -s.wi) * s.shadowed;
+    }
     if (light.is_open && meets_cap(light.shape, s.wi)) s.shadowed = vec3(0.0);
 }
 
@@ -131,8 +141,8 @@ const bool kHasLineCells = kEmissionSampling == kEmissionSamplingProduct && kIsP
 const bool kHasLineCells = false;
 #endif
 
-const bool kHasLinesByMeasure = kHasLines || (kHasTexturedLines && !kHasLineCells);
-const bool kHasTubesByMeasure = kHasTubes || (kHasTexturedTubes && !kHasLineCells);
+const bool kHasLinesByMeasure = kHasLines || kHasProfiledLines || (kHasTexturedLines && !kHasLineCells);
+const bool kHasTubesByMeasure = kHasTubes || kHasProfiledTubes || (kHasTexturedTubes && !kHasLineCells);
 
 /// Adds samples by the measure of the technique.
 void add_by_measure(inout Estimate estimate, LocalLine light) {

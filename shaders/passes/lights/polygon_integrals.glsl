@@ -1,12 +1,12 @@
 #ifndef NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
 #define NUSSELT_PASSES_LIGHTS_POLYGON_INTEGRALS_GLSL
-/// Integrates over all polygonal lights.
+/// Integrates over all polygonal lights and portals without a map.
 
 #include "nusselt/ltc/polygon_shading.glsl"
-#include "passes/lights/polygon.glsl"
+#include "passes/lights/portal.glsl"
 
-vec2 lobe_integrals(LocalPolygon light, Ltc lobe) {
-    return vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, lobe));
+vec2 lobe_integrals(ConvexPolygon light, Ltc lobe) {
+    return vec2(diffuse_integral(light), clipped_lobe_integral(light, lobe));
 }
 
 #if EMISSION_CELLS
@@ -16,8 +16,10 @@ vec2 lobe_integrals(LocalPolygon light, Ltc lobe) {
 #endif
 
 void add_polygons(inout Reflected reflected) {
-    for (uint i = first_index(kPolygonKind); kHasAnyPolygons && i < end_index(kPolygonKind); ++i) {
-        LocalPolygon light = local_polygon(reflected.surface, i);
+    for (uint i = 0u; (kHasAnyPolygons || kHasPortals) && i < polygon_or_portal_count(); ++i) {
+        PolygonOrPortal candidate = polygon_or_portal(i);
+        if (!is_polygon(candidate)) continue;
+        LocalPolygon light = local_polygon_or_portal(reflected.surface, candidate);
         if (light.role.is_lit) add_polygon(reflected, light);
     }
 }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
 #define NUSSELT_PASSES_LIGHTS_POLYGON_SAMPLES_GLSL
-/// Techniques for polygonal lights, and the loop that samples these lights.
+/// Techniques for polygonal lights and portals, and the loop that samples them.
 
 #include "nusselt/sampling/polygon_area.glsl"
 #include "nusselt/sampling/polygon_brdf.glsl"
@@ -10,7 +10,7 @@
 #include "nusselt/sampling/polygon_projected_solid_angle.glsl"
 #include "nusselt/sampling/polygon_projected_solid_angle_biased.glsl"
 #include "nusselt/sampling/polygon_solid_angle.glsl"
-#include "passes/lights/polygon.glsl"
+#include "passes/lights/portal.glsl"
 #include "passes/lights/techniques.glsl"
 
 bool has_pair(ConvexPolygon light, GlossySurface surface) {
@@ -107,6 +107,13 @@ vec2 techniques_integrals(PolygonTechniques self) {
 
 /// Multiplies a sample by the radiance at its point and in its direction over the mean.
 void modulate(LocalPolygon light, inout DirectLightSample s) {
+    if (kHasPortals && light.environment >= 0) {
+        // Light comes from beyond the scene.
+        s.p = (4.0 * scene.radius) * s.wi;
+        uint index = uint(light.environment);
+        if (kHasMappedPortals && (!kHasUniformPortals || environment_lights[index].first_map_word != kNoWords))
+            s.shadowed = radiance_towards(index, frame_to_world(light.shading, s.wi)) * s.shadowed;
+    }
     if (kHasProfiledPolygons && light.profile != kNoWords)
         s.shadowed = relative_radiance(light.profile, light.axes, -s.wi) * s.shadowed;
     if (!kHasTexturedPolygons || light.texture_number < 0) return;
@@ -127,8 +134,10 @@ void modulate(LocalPolygon light, inout DirectLightSample s) {
 #endif
 
 void add_polygons(inout Estimate estimate) {
-    for (uint i = first_index(kPolygonKind); kHasAnyPolygons && i < end_index(kPolygonKind); ++i)
-        add_polygon(estimate, local_polygon(estimate.surface, i));
+    for (uint i = 0u; (kHasAnyPolygons || kHasPortals) && i < polygon_or_portal_count(); ++i) {
+        PolygonOrPortal light = polygon_or_portal(i);
+        if (is_polygon(light)) add_polygon(estimate, local_polygon_or_portal(estimate.surface, light));
+    }
 }
 
 #endif

@@ -3,7 +3,7 @@
 /// Integrals over polygonal lights without images.
 
 void add_polygon(inout Reflected reflected, LocalPolygon light) {
-    add_light(reflected, light.role, lobe_integrals(light, reflected.glossy.lobe));
+    add_light(reflected, light.role, lobe_integrals(light.shape, reflected.glossy.lobe));
 }
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "render_vulkan/lights/emission_words.h"
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/lights/polygon_corners.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/vector_math.h"
@@ -9,7 +10,6 @@
 #include <nusselt/emission/environment_map_words.h>
 
 #include <cstddef>
-#include <stdexcept>
 
 namespace nusselt::render_vulkan {
 
@@ -33,6 +33,19 @@ std::uint32_t add_map(const scene::EnvironmentMapTexels& map, const scene::Float
     return first;
 }
 
+/// The constant of the shape that a light is.
+int constant_of(const scene::EnvironmentLight& light) {
+    if (light.portal.size() > 0)
+        return light.map < 0 ? interface::kUniformPortalsConstant : interface::kMappedPortalsConstant;
+    return light.map < 0 ? interface::kUniformEnvironmentsConstant : interface::kMappedEnvironmentsConstant;
+}
+
+/// Appends the portal of a light, if it has one.
+StoredPolygon add_portal(const scene::EnvironmentLight& light, LightRecords& records) {
+    if (light.portal.size() == 0) return {interface::kNoWords, {0, 0, 0}};
+    return add_corners(light.portal, records);
+}
+
 } // namespace
 
 void write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
@@ -46,8 +59,10 @@ void write_environments(const scene::Scene& scene, const scene::LightList& list,
         copy(light.z_axis, record.z_axis);
         copy(light.radiance, record.radiance);
         record.first_map_word = interface::kNoWords;
-        records.has_shape_of(light.map < 0 ? interface::kUniformEnvironmentsConstant
-                                           : interface::kMappedEnvironmentsConstant) = true;
+        const StoredPolygon portal = add_portal(light, records);
+        copy(portal.normal, record.normal);
+        record.first_corner_word = portal.first_word;
+        records.has_shape_of(constant_of(light)) = true;
         if (light.map >= 0)
             record.first_map_word = add_map(*scene.environment_maps.at(static_cast<std::size_t>(light.map)),
                                             light.radiance, words);

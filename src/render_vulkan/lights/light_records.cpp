@@ -35,13 +35,15 @@ const Kind* find_kind(const scene::LightList& list) {
                         [&](const Kind& kind) { return kind.has(list); });
 }
 
-/// Shaders with cells have room for 8 vertices only: those for environments and for radiance that varies over polygons or along
-/// lines.
+/// Shaders with cells have room for 8 vertices only: those for environments without a portal and for radiance that varies
+/// over polygons or along lines.
 int polygon_slots_for(const scene::Scene& scene) {
     const auto& lines = scene.lights.of<scene::LineLight>();
     const auto& polygons = scene.lights.of<scene::PolygonLight>();
+    const auto& environments = scene.lights.of<scene::EnvironmentLight>();
     const bool are_small =
-        scene.lights.of<scene::EnvironmentLight>().empty() &&
+        std::all_of(environments.begin(), environments.end(),
+                    [](const auto& light) { return light.portal.size() > 0 && light.portal.size() <= 4; }) &&
         std::all_of(polygons.begin(), polygons.end(),
                     [](const auto& light) { return light.vertices.size() <= 4 && light.texture < 0; }) &&
         std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.texture < 0; });
@@ -51,17 +53,9 @@ int polygon_slots_for(const scene::Scene& scene) {
 } // namespace
 
 std::optional<std::string> why_unsupported(const scene::Lights& lights) {
-    const std::string rest = " are not supported on GPUs";
     for (const scene::LightList& list : lights)
         if (list.size() > 0 && find_kind(list) == std::end(kKinds))
-            return std::string(list.name()) + " lights" + rest;
-    const auto& environments = lights.of<scene::EnvironmentLight>();
-    if (std::any_of(environments.begin(), environments.end(),
-                    [](const auto& light) { return light.portal.size() > 0; }))
-        return "environments with a portal" + rest;
-    const auto& lines = lights.of<scene::LineLight>();
-    if (std::any_of(lines.begin(), lines.end(), [](const auto& light) { return light.profile >= 0; }))
-        return "tubes and lines with a profile or a spread" + rest;
+            return std::string(list.name()) + " lights are not supported on GPUs";
     return std::nullopt;
 }
 

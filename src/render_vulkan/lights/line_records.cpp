@@ -2,6 +2,7 @@
 
 #include "render_vulkan/lights/emission_words.h"
 #include "render_vulkan/lights/light_records.h"
+#include "render_vulkan/lights/profile_words.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/library_vector.h"
 #include "scene/model/lights/line_radiance.h"
@@ -10,9 +11,7 @@
 #include <nusselt/geometry/line_segment.h>
 #include <nusselt/line_emission/line_profile_words.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 namespace nusselt::render_vulkan {
@@ -32,6 +31,8 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
 /// The constant of the shape that a light is.
 int constant_of(const scene::LineLight& light) {
     const bool is_tube = light.model == TubeModel::solid || light.model == TubeModel::open;
+    if (light.profile >= 0)
+        return is_tube ? interface::kProfiledTubesConstant : interface::kProfiledLinesConstant;
     if (light.texture >= 0)
         return is_tube ? interface::kTexturedTubesConstant : interface::kTexturedLinesConstant;
     return is_tube ? interface::kTubesConstant : interface::kLinesConstant;
@@ -51,6 +52,8 @@ std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& lig
 
 void write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto& lines = dynamic_cast<const scene::LightsOf<scene::LineLight>&>(list);
+    std::vector<std::uint32_t>& words = records.array_at(interface::kEmissionWordsBinding).words;
+    ProfileWords directions(words);
     std::vector<interface::LineLightRecord> lights;
     for (const scene::LineLight& light : lines.lights) {
         const auto line = make_line(to_vec(light.start), to_vec(light.end));
@@ -65,9 +68,8 @@ void write_lines(const scene::Scene& scene, const scene::LightList& list, LightR
         copy(scene::per_channel_ratio({1, 1, 1}, light.radiance), record.inverse_mean);
         records.has_shape_of(constant_of(light)) = true;
         record.first_profile_word =
-            light.texture < 0
-                ? interface::kNoWords
-                : add_profile(scene, light, records.array_at(interface::kEmissionWordsBinding).words);
+            light.texture < 0 ? interface::kNoWords : add_profile(scene, light, words);
+        record.first_direction_word = light.profile < 0 ? interface::kNoWords : directions.add(scene, light);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);
 }
