@@ -33,14 +33,14 @@ LightsWithoutIntegral without_integral(const scene::Lights& lights) {
             std::any_of(environments.begin(), environments.end(), is_mapped_portal)};
 }
 
-std::optional<std::string> why_unsupported(const LightsWithoutIntegral& lights,
-                                           const render::RenderSettings& settings) {
+std::optional<std::string> why_unsupported_with(const LightsWithoutIntegral& lights,
+                                                const render::RenderSettings& settings) {
     if (settings.technique == render::Technique::ltc_analytic && lights.profiles)
         return "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
                "honeycomb";
     if (settings.technique == render::Technique::ltc_analytic && lights.mapped_portals)
         return "--technique ltc_analytic is not supported on GPUs for portals of environments with an image";
-    return why_unsupported(settings);
+    return render_vulkan::why_unsupported(settings);
 }
 
 } // namespace
@@ -56,13 +56,13 @@ std::optional<std::string> why_unsupported(const render::RenderSettings& setting
 }
 
 std::optional<std::string> why_unsupported(const SceneKinds& kinds, const render::RenderSettings& settings) {
-    return why_unsupported(without_integral(kinds), settings);
+    return why_unsupported_with(without_integral(kinds), settings);
 }
 
 std::optional<std::string> why_unsupported(const scene::Scene& scene,
                                            const render::RenderSettings& settings) {
     if (auto reason = why_unsupported(scene.lights)) return reason;
-    return why_unsupported(without_integral(scene.lights), settings);
+    return why_unsupported_with(without_integral(scene.lights), settings);
 }
 
 } // namespace nusselt::render_vulkan
