@@ -62,7 +62,7 @@ is_up_to_date() {
 
 # Lines of passed tests are left out: there are thousands.
 run_tests() {
-    rm -rf "build/$1/test-reports"
+    rm -f "build/$1/test-reports/"*.xml
     ctest --preset "$1" -j "$jobs" --output-junit "$2" | grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec *$'
 }
 
@@ -74,9 +74,9 @@ build_and_test() {
         failed=$((failed + 1))
         return
     fi
-    stage "$preset: tests" run_tests "$preset" "$report"
-    local all bad ignored
-    read -r all bad ignored < <(scripts/count-tests.sh "$report" "build/$preset/test-reports")
+    local all bad ignored status=0
+    stage "$preset: tests" run_tests "$preset" "$report" || status=$?
+    read -r all bad ignored < <(scripts/count-tests.sh "$report" "build/$preset/test-reports" "$status")
     if [ "${all:-0}" -eq 0 ]; then
         echo "no test ran"
         failed=$((failed + 1))

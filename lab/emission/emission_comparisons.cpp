@@ -36,7 +36,7 @@ const Variant kMeasure = {"projected_solid_angle + LTC",
 const Variant kProduct = {"with emission", pairs(1, Technique::projected_solid_angle, Strategies::diffuse_ltc,
                                                  Mis::clamped_optimal, EmissionSampling::product)};
 
-/// The strategies of the paper in about the time of products of directions, which take ten to thirty times as long where they are taken.
+/// The strategies of the paper in more time than products take, which take two to six times as long as one sample does here.
 const Variant kMoreMeasure = {"projected_solid_angle + LTC, 16 samples",
                               pairs(16, Technique::projected_solid_angle, Strategies::diffuse_ltc,
                                     Mis::clamped_optimal, EmissionSampling::measure)};

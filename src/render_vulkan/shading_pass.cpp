@@ -6,8 +6,6 @@
 #include "render_vulkan/shading_shaders.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan {

@@ -39,7 +39,7 @@ std::optional<std::string> why_unsupported_with(const LightsWithoutIntegral& lig
         return "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
                "honeycomb";
     if (settings.technique == render::Technique::ltc_analytic && lights.mapped_portals)
-        return "--technique ltc_analytic is not supported on GPUs for portals of environments with an image";
+        return "--technique ltc_analytic is not supported on GPUs for portals of environments with a map";
     return render_vulkan::why_unsupported(settings);
 }
 

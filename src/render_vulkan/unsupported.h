@@ -13,10 +13,11 @@ namespace nusselt::render_vulkan {
 /// Names the first setting that GPUs do not support for any scene; nothing if they support all.
 std::optional<std::string> why_unsupported(const render::RenderSettings& settings);
 
-/// The same for a scene with features, whose lights GPUs support.
+/// The same for a scene with lights and surfaces of these kinds.
+/// \param kinds of a scene that make_light_records() accepts
 std::optional<std::string> why_unsupported(const SceneKinds& kinds, const render::RenderSettings& settings);
 
-/// The same for a scene: names its first light that GPUs do not support, if it has one.
+/// The same for a scene: names the first kind of light that GPUs do not have, or else what its lights do not support.
 std::optional<std::string> why_unsupported(const scene::Scene& scene, const render::RenderSettings& settings);
 
 } // namespace nusselt::render_vulkan

@@ -107,10 +107,9 @@ TEST_F(Gpu, AutoOnTheCpuDoesNotAdviseTheCpu) {
     for (const auto& [scene, options, reason] :
          {std::tuple(tube, "--layers normal", "layer normal is not supported on GPUs"),
           std::tuple(tube, "--light-samples lines", "--light-samples lines is not supported on GPUs"),
-          std::tuple(
-              street, "--technique ltc_analytic --strategies diffuse",
-              "--technique ltc_analytic is not supported on GPUs for polygons with a profile, a spread "
-              "or a honeycomb")}) {
+          std::tuple(street, "--technique ltc_analytic --strategies diffuse",
+                     "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread "
+                     "or a honeycomb")}) {
         const std::string render = "render '" + kScenes + '/' + scene + "' --resolution 8x8 -o a.exr ";
         const Outcome automatic = run(render + "--backend auto " + options, kNoDriver);
         EXPECT_EQ(automatic.exit_code, 0) << automatic.err;

@@ -22,17 +22,23 @@ gl.deleteShader(shader);
 return messages;
 """
 
-# Programs that a check without WebGL's rules would let pass.
-FORBIDDEN = {
-    "a choice between structures": """#version 300 es
+# Programs that a check without WebGL's rules would let pass, and what of them is allowed.
+RULES = {
+    "a choice between structures": ("""#version 300 es
         struct A { int a; };
         A choose(bool first, A a, A b) { return first ? a : b; }
-        void main() {}""",
-    "structures in five levels": """#version 300 es
+        void main() {}""", """#version 300 es
+        struct A { int a; };
+        A choose(bool first, A a, A b) { if (first) return a; return b; }
+        void main() {}"""),
+    "structures in five levels": ("""#version 300 es
         struct A { int a; }; struct B { A a; }; struct C { B b; }; struct D { C c; };
         struct E { D d; };
         int get(E e) { return e.d.c.b.a.a; }
-        void main() {}""",
+        void main() {}""", """#version 300 es
+        struct A { int a; }; struct B { A a; }; struct C { B b; }; struct D { C c; };
+        int get(D d) { return d.c.b.a.a; }
+        void main() {}"""),
 }
 
 
@@ -46,9 +52,12 @@ def main():
             messages = browser.script(MESSAGES, file.read_text())
             if messages:
                 failed.append(f"{file.name}: {messages}")
-        for name, source in FORBIDDEN.items():
-            if not browser.script(MESSAGES, source):
+        for name, (forbidden, allowed) in RULES.items():
+            if not browser.script(MESSAGES, forbidden):
                 failed.append(f"the browser accepts {name}: it does not check what it should")
+            messages = browser.script(MESSAGES, allowed)
+            if messages:
+                failed.append(f"the browser rejects what should replace {name}: {messages}")
     finally:
         browser.quit()
     print("\n".join(failed) or f"{len(files)} shaders compile in WebGL 2")

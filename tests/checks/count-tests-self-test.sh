@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Shows that count-tests.sh counts each test of a process, and a process that ended without a report as one failure.
+# Shows that count-tests.sh counts each test of a process, and as a failure each process without a report and what did not
+# start.
 set -euo pipefail
 count=$(cd "$(dirname "$0")/../../scripts" && pwd)/count-tests.sh
 work=$(mktemp -d)
@@ -20,17 +21,38 @@ process_report() {
         echo "  <testsuite name=\"B\" tests=\"7\" failures=\"$2\" disabled=\"$3\" skipped=\"$4\" errors=\"0\" time=\"1\">"
     } >"reports/$1.xml"
 }
+# The processes of which reports are expected.
+expect_reports() {
+    mkdir -p reports
+    printf '%s\n' "$@" >reports/expected
+}
+# $1: the counts, $2: the exit status of ctest.
 expect() {
     local text
-    text=$("$count" ctest.xml reports)
-    [ "$text" = "$1" ] || { echo "expected $1, found $text"; exit 1; }
+    text=$("$count" ctest.xml reports "${2:-0}")
+    [ "$text" = "$1" ] || { echo "line ${BASH_LINENO[0]}: expected $1, found $text"; exit 1; }
 }
 
 ctest_report 10 1 2 3
 expect '10 1 5'
+expect_reports p
 process_report p 0 0 0
 expect '21 1 5'
 process_report p 4 0 0 # the process is the failed one of ten
 expect '21 4 5'
+expect_reports p q
 process_report q 0 1 2
 expect '32 4 8'
+# A process that crashed has no report, and is the failed one of ten.
+rm reports/*.xml
+expect_reports p
+expect '10 1 5' 8
+# One that ended well without a report, and one whose filter names no test, have failed all the same.
+ctest_report 10 0 2 3
+expect '10 1 5'
+echo '<testsuites tests="0" failures="0" disabled="0" errors="0" time="0" name="AllTests">' >reports/p.xml
+expect '10 1 5'
+# Among the skipped tests of ctest are those that did not start.
+process_report p 0 0 0
+expect '21 0 5'
+expect '21 1 5' 8

@@ -219,7 +219,7 @@ TEST_F(Portals, WithAMap_AreNotIntegrated) {
     render::RenderSettings settings = centred();
     settings.technique = Technique::ltc_analytic;
     EXPECT_EQ(render_vulkan::why_unsupported(scene, settings),
-              "--technique ltc_analytic is not supported on GPUs for portals of environments with an image");
+              "--technique ltc_analytic is not supported on GPUs for portals of environments with a map");
     EXPECT_EQ(render_vulkan::why_unsupported(scene, centred()), std::nullopt);
     VulkanRenderer renderer = renderer_of(scene);
     EXPECT_THROW(renderer.render(settings), std::invalid_argument);

@@ -181,7 +181,7 @@ public:
     /// Lights whose sides add up to less than this times their distance are far: Lambert's formula loses digits with the
     /// distance, while the cosine over a cell becomes as good as quadratic. Both errors are alike here.
     static constexpr T kFar = power_of_two<T>((24 - std::numeric_limits<T>::digits) / 6);
-    /// The same for lights that the horizon or their outline cuts. In cells that are cut, no more is known than the centre.
+    /// The same for lights that the horizon or their outline cuts. Only a mean height is known of cells that are cut.
     static constexpr T kFarIfCut = power_of_two<T>(-std::numeric_limits<T>::digits / 5);
 
     /// \param plane of the light in shading space, or in the cosine space of a lobe, with coordinates of order one.

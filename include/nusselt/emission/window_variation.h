@@ -2,8 +2,8 @@
 /// How much the radiance of a polygon varies over the directions in which a point sees it: whether samples in proportion to it
 /// (windowed_polygon.h) are worth their cost.
 ///
-/// Samples of the measure alone, times radiance, have a relative variance of about window_variation(), and cost a small part of
-/// those of cells. A renderer takes them for points where it is at most kLittleVariation. This is a property of light and point,
+/// Samples of a solid angle, times radiance, have a relative variance of about window_variation(): cosines and horizons may make
+/// it larger. They cost a small part of those of cells. A renderer takes them for points where it is at most kLittleVariation. This is a property of light and point,
 /// never of random numbers, so that neither way of sampling is biased.
 
 #include <nusselt/emission/windowed_light.h>
@@ -17,7 +17,7 @@ inline constexpr T kLittleVariation = T(1) / 12;
 
 /// The squared coefficient of variation of radiance by solid angle, over the texels of the bounding box of the light in its
 /// frame and those next to them: nothing in this box, such as the edge of a sun, is left out.
-/// \tparam T    float, double or long double.
+/// \tparam T    float, double or long double. \param light its side that faces the point.
 /// \param plane of the light seen from a point: to_shading_space(light.plane, point, frame), in any frame.
 /// \returns 0 or more; infinity if the light reaches beyond the domain of its table, where it is black; 0 if all of the box is
 ///          black, and for points beyond or in the plane of the light.

@@ -18,7 +18,7 @@ vec2 lobe_integrals(ConvexPolygon light, Ltc lobe) {
 void add_polygons(inout Reflected reflected) {
     for (uint i = 0u; (kHasAnyPolygons || kHasPortals) && i < polygon_or_portal_count(); ++i) {
         PolygonOrPortal candidate = polygon_or_portal(i);
-        if (!is_polygon(candidate)) continue;
+        if (!has_shape(candidate)) continue;
         LocalPolygon light = local_polygon_or_portal(reflected.surface, candidate);
         if (light.role.is_lit) add_polygon(reflected, light);
     }

@@ -136,7 +136,7 @@ void modulate(LocalPolygon light, inout DirectLightSample s) {
 void add_polygons(inout Estimate estimate) {
     for (uint i = 0u; (kHasAnyPolygons || kHasPortals) && i < polygon_or_portal_count(); ++i) {
         PolygonOrPortal light = polygon_or_portal(i);
-        if (is_polygon(light)) add_polygon(estimate, local_polygon_or_portal(estimate.surface, light));
+        if (has_shape(light)) add_polygon(estimate, local_polygon_or_portal(estimate.surface, light));
     }
 }
 

@@ -8,8 +8,8 @@
 #include "passes/lights/polygon.glsl"
 
 struct PolygonOrPortal {
-    bool is_portal;
-    uint index; ///< among the polygonal lights, or among the environments
+    bool is_environment; ///< which has a portal or not
+    uint index;          ///< among the polygonal lights, or among the environments
 };
 
 /// How many polygonal lights this part of the frame samples.
@@ -27,7 +27,7 @@ PolygonOrPortal polygon_or_portal(uint i) {
     return PolygonOrPortal(false, first_index(kPolygonKind) + i);
 }
 
-bool is_polygon(PolygonOrPortal light) { return !light.is_portal || has_portal(light.index); }
+bool has_shape(PolygonOrPortal light) { return !light.is_environment || has_portal(light.index); }
 
 /// What passes a portal. \param shape in shading space, \param index among the environments
 LocalPolygon local_portal(Surface surface, ConvexPolygon shape, uint index) {
@@ -46,12 +46,12 @@ LocalPolygon local_portal(Surface surface, ConvexPolygon shape, uint index) {
     return light;
 }
 
-/// \param light for which is_polygon() holds
+/// \param light for which has_shape() holds
 LocalPolygon local_polygon_or_portal(Surface surface, PolygonOrPortal light) {
     uint index = light.index;
     uint first_word;
     vec3 normal;
-    if (light.is_portal) {
+    if (light.is_environment) {
         first_word = environment_lights[index].first_corner_word;
         normal = to_vec(environment_lights[index].normal);
     } else {
@@ -59,7 +59,7 @@ LocalPolygon local_polygon_or_portal(Surface surface, PolygonOrPortal light) {
         normal = to_vec(polygon_lights[index].normal);
     }
     ConvexPolygon shape = to_shading_space(stored_polygon(first_word, normal), surface.position, surface.shading);
-    if (light.is_portal) return local_portal(surface, shape, index);
+    if (light.is_environment) return local_portal(surface, shape, index);
     return local_polygon(surface, shape, index);
 }
 

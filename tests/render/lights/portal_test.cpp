@@ -109,6 +109,17 @@ TEST(UniformPortal, LightsAFloorWithoutNoise) {
     }
 }
 
+TEST(PortalWithMap, ThatVariesLittleIsSampledByTheMeasure) {
+    const auto value = [](const scene::PolygonVertices& portal, render::EmissionSampling sampling) {
+        render::RenderSettings settings = centred(2);
+        settings.emission_sampling = sampling;
+        return render_green(make_scene(portal, kSmall), settings).value;
+    };
+    using render::EmissionSampling;
+    EXPECT_EQ(value(kAwayFromSun, EmissionSampling::product), value(kAwayFromSun, EmissionSampling::measure));
+    EXPECT_NE(value(kRectangle, EmissionSampling::product), value(kRectangle, EmissionSampling::measure));
+}
+
 TEST(PortalWithMap, LightsAFloorLikeQuadrature) {
     for (const scene::PolygonVertices& portal : {kRectangle, kPentagon, kAwayFromSun}) {
         const double expected = reflected(portal, radiance_towards);

@@ -10,8 +10,9 @@ NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
 namespace {
 
-const WindowedLight<float>& side_of(const render_cpu::PolygonProfile& profile, bool is_back) noexcept {
-    return *static_cast<const WindowedLight<float>*>(profile.side[is_back ? 1 : 0]);
+/// \param back 1 for the side of the back, 0 for that of the front
+const WindowedLight<float>& side_of(const render_cpu::PolygonProfile& profile, std::uint32_t back) noexcept {
+    return *static_cast<const WindowedLight<float>*>(profile.side[back]);
 }
 
 /// A light with a profile as a packet of shading points sees it, see cell_samples.h. Radiance is relative to its mean.
@@ -51,7 +52,7 @@ public:
 
 private:
     const WindowedLight<float>& side(int lane) const noexcept {
-        return side_of(profile_, (is_behind_ >> lane & 1u) != 0);
+        return side_of(profile_, is_behind_ >> lane & 1u);
     }
     WindowPlane<float> plane(int lane) const noexcept {
         return to_shading_space(side(lane).plane, single_lane<Vec3<float>>(surface_.position, lane),
@@ -92,7 +93,7 @@ struct AddCellIntegrals {
 };
 
 /// Whether a spread or a honeycomb is in front of the light, which falls to zero within its window.
-bool has_grid(const render_cpu::PolygonProfile& profile) noexcept {
+bool has_cutoff(const render_cpu::PolygonProfile& profile) noexcept {
     return profile.inverse_slope > 0 || profile.inverse_holes.x > 0 || profile.inverse_holes.y > 0;
 }
 
@@ -109,7 +110,7 @@ void add_by_profile(ReflectedLight& reflected, const render_cpu::LightSet& light
     if (!any(light.lit)) return;
     const render_cpu::PolygonProfile& profile = *light.shape.profile;
     const WithoutProfile<N> plain{light.shape, light.lit, light.emission, light.number};
-    if (has_grid(profile))
+    if (has_cutoff(profile))
         Add::add(reflected, ProfileCells<8>(profile, reflected.surface(), is_behind(light)), plain);
     else
         Add::add(reflected,
@@ -132,7 +133,7 @@ void add_profiled_samples(render_cpu::LitPacket& packet, const render_cpu::Light
     const std::uint32_t behind = is_behind(light).bits();
     const LaneMask even = varies_little(
         light.lit, reflected.surface(), [&](int lane) -> const auto& {
-            return side_of(*light.shape.profile, (behind >> lane & 1u) != 0);
+            return side_of(*light.shape.profile, behind >> lane & 1u);
         });
     add_where_it_varies(
         reflected, light.lit, even,
