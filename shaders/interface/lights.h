@@ -60,7 +60,7 @@ struct PolygonLightRecord {
     float normal[3];
     float radiance[3]; ///< the mean if there is a texture
     uint is_two_sided;
-    uint first_corner_word;
+    uint first_corner_word;  ///< among those of kPolygonCornersBinding
     int texture_number;      ///< index of its PolygonTextureRecord, -1 for none
     uint first_profile_word; ///< of interface/profiles.h, kNoWords for none
 };
@@ -95,8 +95,8 @@ struct LineLightRecord {
     float radiance[3]; ///< the mean if it varies
     float inverse_mean[3];   ///< of the radiance; 0 for channels that are black everywhere
     /// Emission word that its LineProfileWords begin with; kNoWords for the same radiance everywhere.
-    uint first_profile_word;
-    uint first_direction_word; ///< of interface/profiles.h, kNoWords for the same radiance in all directions
+    uint first_texture_word;
+    uint first_profile_word; ///< of interface/profiles.h, kNoWords for the same radiance in all directions
 };
 
 // Values of PointLightRecord::distribution, those of scene::PointDistribution.

@@ -242,8 +242,10 @@ TEST(EnvironmentRecords, HaveRoomForTheCornersOfPortals) {
                                 int slots, std::size_t portals) {
         render_vulkan::LightRecords records = render_vulkan::make_light_records(make_portals(first, second));
         EXPECT_EQ(records.polygon_slots, slots);
-        EXPECT_GE(records.array_at(interface::kPolygonCornersBinding).words.size(),
-                  portals * 6 * static_cast<std::size_t>(slots));
+        const std::size_t polygons = make_portals({}, {}).lights.of<scene::PolygonLight>().size();
+        EXPECT_EQ(records.array_at(interface::kPolygonCornersBinding).words.size(),
+                  1 + (polygons + portals) * 6 * static_cast<std::size_t>(slots))
+            << "one in an empty array";
     };
     expect_room(kWindow, kSkylight, 4, 2);
     expect_room(kWindow, kPentagon, 8, 2);

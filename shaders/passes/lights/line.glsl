@@ -9,7 +9,7 @@
 #include "nusselt/geometry/cylinder_caps.glsl"
 #include "nusselt/geometry/strip.glsl"
 #include "passes/lights/light_role.glsl"
-#include "passes/lights/line_directions.glsl"
+#include "passes/lights/line_emission_profile.glsl"
 #include "passes/lights/line_profile.glsl"
 
 // Linear lights and strips have no extent. Those whose radiance varies or depends on the direction count apart.
@@ -26,7 +26,7 @@ struct LocalLine {
     float radius; ///< for tubes
     float width;  ///< the emission over the radiance
     LineRadiance radiance;
-    LineDirections directions;
+    LineEmissionProfile emission_profile;
     LightRole role;
 };
 
@@ -34,7 +34,7 @@ struct LocalTube {
     Cylinder shape; ///< in shading space
     bool is_open;   ///< with dark caps
     LineRadiance radiance;
-    LineDirections directions;
+    LineEmissionProfile emission_profile;
     LightRole role;
 };
 
@@ -42,7 +42,7 @@ bool is_tube(uint model) { return model == kSolidTube || model == kOpenTube; }
 bool is_tube(LocalLine light) { return is_tube(light.model); }
 
 LocalTube tube_of(LocalLine light) {
-    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.directions,
+    return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.emission_profile,
                      light.role);
 }
 
@@ -54,8 +54,8 @@ LocalLine local_line(Surface surface, uint index) {
     light.shape = to_shading_space(world, surface.position, surface.shading);
     light.model = record.model;
     light.radius = record.radius;
-    light.radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
-    light.directions = local_directions(record.first_direction_word, surface.shading);
+    light.radiance = LineRadiance(record.first_texture_word, to_vec(record.inverse_mean));
+    light.emission_profile = local_emission_profile(record.first_profile_word, surface.shading);
     vec3 s = light.shape.s;
     float highest = nusselt_max(light.shape.p0.z, light.shape.p0.z + light.shape.len * s.z);
     light.width = 1.0;
@@ -91,14 +91,14 @@ vec3 across(LineSegment axis, vec3 p) {
 
 /// The radiance of a light with a profile over its mean. \param wi unit, towards the light
 float relative_radiance(LineLightRecord record, Cylinder tube, vec3 wi) {
-    uint profile = record.first_direction_word;
-    LineDirections directions = LineDirections(profile, profile_axes(profile));
+    uint profile = record.first_profile_word;
+    LineEmissionProfile emission_profile = LineEmissionProfile(profile, profile_axes(profile));
     LightHit hit = intersect(tube, wi);
     // Beside the round cylinder, cameras see no normal.
     if (!is_tube(record.model) || !hit.hits)
-        return radiance_of_line(directions, record.model == kStrip, tube.axis.s, -wi);
+        return radiance_of_line(emission_profile, record.model == kStrip, tube.axis.s, -wi);
     vec3 normal = meets_cap(tube, wi) ? tube.axis.s : nusselt_normalize(across(tube.axis, hit.distance * wi));
-    return radiance_of_tube(directions, abs(dot(normal, wi)), -wi);
+    return radiance_of_tube(emission_profile, abs(dot(normal, wi)), -wi);
 }
 
 /// The radiance along a ray that meets the light.
@@ -108,9 +108,9 @@ vec3 line_emission(uint index, Ray ray) {
     Cylinder tube = Cylinder(axis, record.radius);
     vec3 wi = nusselt_normalize(ray.direction);
     if (record.model == kOpenTube && meets_cap(tube, wi)) return vec3(0.0);
-    if ((kHasProfiledLines || kHasProfiledTubes) && record.first_direction_word != kNoWords)
+    if ((kHasProfiledLines || kHasProfiledTubes) && record.first_profile_word != kNoWords)
         return relative_radiance(record, tube, wi) * to_vec(record.radiance);
-    LineRadiance radiance = LineRadiance(record.first_profile_word, to_vec(record.inverse_mean));
+    LineRadiance radiance = LineRadiance(record.first_texture_word, to_vec(record.inverse_mean));
     if (!varies(radiance)) return to_vec(record.radiance);
     return line_profile_lookup(radiance.profile, place_along(record, tube, wi));
 }

@@ -101,8 +101,8 @@ vec2 techniques_integrals(TubeTechniques self) {
 
 /// Multiplies a sample by the radiance at its point and in its direction over the mean.
 void modulate(LocalLine light, inout DirectLightSample s) {
-    if (kHasProfiledLines && depends_on_direction(light.directions))
-        s.shadowed = radiance_of_line(light.directions, light.model == kStrip, light.shape.s, -s.wi) * s.shadowed;
+    if (kHasProfiledLines && has_emission_profile(light.emission_profile))
+        s.shadowed = radiance_of_line(light.emission_profile, light.model == kStrip, light.shape.s, -s.wi) * s.shadowed;
     if (kHasTexturedLines && varies(light.radiance))
         s.shadowed = relative_radiance(light.radiance, light.shape, s.p) * s.shadowed;
 }
@@ -111,12 +111,12 @@ void modulate(LocalTube light, inout DirectLightSample s) {
     LineSegment axis = light.shape.axis;
     if (kHasTexturedTubes && varies(light.radiance))
         s.shadowed = relative_radiance(light.radiance, axis, s.p) * s.shadowed;
-    if (kHasProfiledTubes && depends_on_direction(light.directions)) {
+    if (kHasProfiledTubes && has_emission_profile(light.emission_profile)) {
         // With the normal of a cap, or of the lateral surface.
         vec3 away = across(axis, s.p);
         float lateral = -dot(away, s.wi) / sqrt(nusselt_max(dot(away, away), kNusseltTiny));
         float cosine = meets_cap(light.shape, s.wi) ? abs(dot(axis.s, s.wi)) : lateral;
-        s.shadowed = radiance_of_tube(light.directions, cosine, -s.wi) * s.shadowed;
+        s.shadowed = radiance_of_tube(light.emission_profile, cosine, -s.wi) * s.shadowed;
     }
     if (light.is_open && meets_cap(light.shape, s.wi)) s.shadowed = vec3(0.0);
 }

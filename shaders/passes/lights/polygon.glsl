@@ -3,7 +3,7 @@
 /// Polygonal lights as a shading point and a camera see them, as in src/render_cpu/kernel/lights/polygon_light.h.
 
 #ifndef EMISSION_CELLS
-#error EMISSION_CELLS must be 1 for environments without a portal and where images of polygons decide where samples are, else 0: it compiles longer
+#error EMISSION_CELLS must be 1 for environments without a portal and for products with images of polygons, else 0
 #endif
 
 #include "passes/lights/light_role.glsl"

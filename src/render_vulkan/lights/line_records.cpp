@@ -67,9 +67,9 @@ void write_lines(const scene::Scene& scene, const scene::LightList& list, LightR
         copy(light.radiance, record.radiance);
         copy(scene::per_channel_ratio({1, 1, 1}, light.radiance), record.inverse_mean);
         records.has_shape_of(constant_of(light)) = true;
-        record.first_profile_word =
+        record.first_texture_word =
             light.texture < 0 ? interface::kNoWords : add_profile(scene, light, words);
-        record.first_direction_word = light.profile < 0 ? interface::kNoWords : directions.add(scene, light);
+        record.first_profile_word = light.profile < 0 ? interface::kNoWords : directions.add(scene, light);
     }
     records.array_at(interface::kLineLightsBinding) = make_light_array("linear lights", lights);
 }

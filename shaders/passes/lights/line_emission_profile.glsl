@@ -1,5 +1,5 @@
-#ifndef NUSSELT_PASSES_LIGHTS_LINE_DIRECTIONS_GLSL
-#define NUSSELT_PASSES_LIGHTS_LINE_DIRECTIONS_GLSL
+#ifndef NUSSELT_PASSES_LIGHTS_LINE_EMISSION_PROFILE_GLSL
+#define NUSSELT_PASSES_LIGHTS_LINE_EMISSION_PROFILE_GLSL
 /// How the radiance of lines and tubes depends on the direction, as in src/render_cpu/kernel/lights/line_light.h.
 
 #include "passes/lights/profile.glsl"
@@ -7,19 +7,19 @@
 layout(constant_id = kProfiledLinesConstant) const bool kHasProfiledLines = true; ///< without extent
 layout(constant_id = kProfiledTubesConstant) const bool kHasProfiledTubes = true;
 
-struct LineDirections {
+struct LineEmissionProfile {
     uint profile;     ///< first word, kNoWords for the same radiance in all directions
     ProfileAxes axes; ///< in shading space, or in world space for cameras
 };
 
-bool depends_on_direction(LineDirections self) {
+bool has_emission_profile(LineEmissionProfile self) {
     return (kHasProfiledLines || kHasProfiledTubes) && self.profile != kNoWords;
 }
 
-LineDirections local_directions(uint profile, Frame shading) {
-    LineDirections self;
+LineEmissionProfile local_emission_profile(uint profile, Frame shading) {
+    LineEmissionProfile self;
     self.profile = profile;
-    if (depends_on_direction(self)) self.axes = to_shading_space(profile_axes(profile), shading);
+    if (has_emission_profile(self)) self.axes = to_shading_space(profile_axes(profile), shading);
     return self;
 }
 
@@ -40,13 +40,13 @@ float whole_spread_share(uint profile, bool is_strip, float along, float cosine)
 
 /// The radiance of a linear light or a strip over its mean.
 /// \param along direction of the line, \param away unit, from the light: in the frame of the axes
-float radiance_of_line(LineDirections self, bool is_strip, vec3 along, vec3 away) {
+float radiance_of_line(LineEmissionProfile self, bool is_strip, vec3 along, vec3 away) {
     return whole_spread_share(self.profile, is_strip, dot(along, away), dot(self.axes.normal, away)) *
            relative_luminance(self.profile, self.axes, away);
 }
 
 /// The radiance of a point of a tube over the mean. \param cosine of the direction with the normal there
-float radiance_of_tube(LineDirections self, float cosine, vec3 away) {
+float radiance_of_tube(LineEmissionProfile self, float cosine, vec3 away) {
     return spread_share(self.profile, cosine) * relative_luminance(self.profile, self.axes, away);
 }
 
