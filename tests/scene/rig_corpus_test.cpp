@@ -4,6 +4,7 @@
 #include "scene/import/importers.h"
 #include "scene/rig/light_edit.h"
 #include "scene/rig/light_image.h"
+#include "scene/rig/light_profile.h"
 #include "scene/rig/rig.h"
 #include "scene/rig/rig_json.h"
 
