@@ -6,6 +6,7 @@
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/bsdf/phong.h>
+#include <nusselt/emission/window_variation.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/direct_light.h>
 #include <nusselt/estimate/line_light.h>
@@ -24,7 +25,6 @@
 // All techniques, by scripts/check-techniques.py.
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/textured_polygon.h>
-#include <nusselt/emission/window_variation.h>
 #include <nusselt/emission/windowed_polygon.h>
 #include <nusselt/line_emission/textured_line.h>
 #include <nusselt/line_emission/textured_tube.h>
