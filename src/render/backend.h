@@ -58,7 +58,7 @@ public:
     /// The reason for which settings are not supported, whatever the scene; nothing if they are. \param settings valid
     virtual std::optional<std::string> why_unsupported(const RenderSettings& settings) const = 0;
 
-    /// The same for a scene with these settings, for any scene. Reasons do not say what to do instead.
+    /// The same for a scene, whatever its lights: covers the settings alone, too. Reasons do not say what to do instead.
     virtual std::optional<std::string> why_unsupported(const scene::Scene& scene,
                                                        const RenderSettings& settings) const = 0;
 

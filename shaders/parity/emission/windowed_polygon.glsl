@@ -9,6 +9,6 @@ void main() {
 
     Technique technique = technique_prepare(plane, input_light(begin));
     const TexturedSample s = technique_sample(technique, input_random(begin));
-    write_windowed(i, s, WindowedCells(technique.view, technique.sums), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    write_windowed(i, s, windowed_polygon_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                    technique_measure(technique));
 }

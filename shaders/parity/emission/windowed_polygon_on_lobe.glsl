@@ -11,6 +11,6 @@ void main() {
 
     Technique technique = technique_prepare(plane, input_light(begin), input_lobe(begin + kWindowedSize));
     const TexturedSample s = technique_sample(technique, input_random(begin));
-    write_windowed(i, s, WindowedCells(technique.view, technique.sums), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    write_windowed(i, s, windowed_polygon_ltc_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                    technique_measure(technique));
 }
