@@ -9,11 +9,11 @@
 
 namespace nusselt::lab {
 
-/// Medians per shading point, in float on one thread.
+/// Medians per shading point, in float on one thread, with code and texels in the cache.
 struct EmissionCost {
     std::string technique;
-    std::size_t uniform = 0; ///< row of the technique for the same light that ignores how emission varies
-    double prepare_ns = 0;
+    std::size_t uniform = 0;    ///< row of the technique for the same light that ignores how emission varies
+    double prepare_ns = 0;      ///< prepare and ask for the measure
     double first_sample_ns = 0; ///< prepare and take one sample
     double next_sample_ns = 0;
     double density_ns = 0; ///< of one direction

@@ -5,7 +5,7 @@
 
 namespace nusselt::lab {
 
-inline constexpr int kEmissionViews = 64;
+inline constexpr int kEmissionViews = 512;
 inline constexpr int kEmissionSamples = 16;
 
 /// Shading points: the frames of their surfaces and their places in the space of the unit square, where its corners are
