@@ -26,38 +26,6 @@ void copy_tile(const image::Image& from, const render::Tile& tile, render::Frame
     }
 }
 
-/// Whether the CPU would sample profiles of lines in proportion to their radiance: takes_products() of its kernel.
-bool asks_for_products(const render::RenderSettings& settings) {
-    using render::Technique;
-    return settings.emission_sampling == render::EmissionSampling::product &&
-           (settings.technique == Technique::projected_solid_angle ||
-            settings.technique == Technique::projected_solid_angle_biased);
-}
-
-/// The same for profiles of polygons and for portals: takes_windowed_products(), for the strategies that have products.
-bool asks_for_windowed_products(const render::RenderSettings& settings) {
-    const bool is_optimal =
-        settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal;
-    return asks_for_products(settings) && !is_optimal && !samples_visible_normals(settings.strategies);
-}
-
-/// Lights that are sampled by their measure, although settings ask for products.
-struct LightsWithoutProducts {
-    std::string_view name;
-    std::ptrdiff_t count;
-};
-
-/// Tubes are sampled by their measure on the CPU, too.
-bool has_no_extent(const scene::LineLight& light) {
-    return light.model == scene::TubeModel::linear || light.model == scene::TubeModel::strip;
-}
-
-std::string warning_of(const LightsWithoutProducts& lights) {
-    return std::string(lights.name) + " (" + std::to_string(lights.count) +
-           ") are sampled as with --emission-sampling " +
-           std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them";
-}
-
 class VulkanScene final : public render::PreparedScene {
 public:
     VulkanScene(const gpu::Device& device, const scene::Scene& scene, ShadowRays shadow_rays)
@@ -100,29 +68,7 @@ std::optional<std::string> VulkanBackend::why_unsupported(const scene::Scene& sc
 
 std::vector<std::string> VulkanBackend::warnings(const scene::Scene& scene,
                                                  const render::RenderSettings& settings) const {
-    const auto count = [](const auto& lights, const auto& is_replaced) {
-        return std::count_if(lights.begin(), lights.end(), is_replaced);
-    };
-    std::vector<LightsWithoutProducts> replaced;
-    if (asks_for_products(settings))
-        replaced = {{"linear lights and strips with a profile or a spread",
-                     count(scene.lights.of<scene::LineLight>(), [](const scene::LineLight& light) {
-                         return light.profile >= 0 && has_no_extent(light);
-                     })}};
-    if (asks_for_windowed_products(settings)) {
-        replaced.push_back({"polygons with a profile, a spread or a honeycomb",
-                            count(scene.lights.of<scene::PolygonLight>(),
-                                  [](const scene::PolygonLight& light) { return light.profile >= 0; })});
-        replaced.push_back(
-            {"portals of environments with a map",
-             count(scene.lights.of<scene::EnvironmentLight>(), [](const scene::EnvironmentLight& light) {
-                 return light.portal.size() > 0 && light.map >= 0;
-             })});
-    }
-    std::vector<std::string> warnings;
-    for (const LightsWithoutProducts& lights : replaced)
-        if (lights.count > 0) warnings.push_back(warning_of(lights));
-    return warnings;
+    return render_vulkan::sampling_warnings(scene, settings);
 }
 
 std::size_t VulkanBackend::layer_sum_bytes(const scene::Scene&, const render::RenderSettings&) const {

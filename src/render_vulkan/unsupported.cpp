@@ -3,6 +3,8 @@
 #include "interface/lights.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 
 namespace nusselt::render_vulkan {
 
@@ -22,15 +24,18 @@ LightsWithoutIntegral without_integral(const SceneKinds& kinds) {
             has(interface::kMappedPortalsConstant)};
 }
 
+template <class Light>
+std::ptrdiff_t count_of(int constant, const scene::Lights& lights) {
+    const auto& of_kind = lights.of<Light>();
+    return std::count_if(of_kind.begin(), of_kind.end(),
+                         [&](const Light& light) { return constant_of(light) == constant; });
+}
+
 LightsWithoutIntegral without_integral(const scene::Lights& lights) {
-    const auto has_profile = [](const auto& light) { return light.profile >= 0; };
-    const auto is_mapped_portal = [](const auto& light) { return light.map >= 0 && light.portal.size() > 0; };
-    const auto& polygons = lights.of<scene::PolygonLight>();
-    const auto& lines = lights.of<scene::LineLight>();
-    const auto& environments = lights.of<scene::EnvironmentLight>();
-    return {std::any_of(polygons.begin(), polygons.end(), has_profile) ||
-                std::any_of(lines.begin(), lines.end(), has_profile),
-            std::any_of(environments.begin(), environments.end(), is_mapped_portal)};
+    return {count_of<scene::PolygonLight>(interface::kProfiledPolygonsConstant, lights) > 0 ||
+                count_of<scene::LineLight>(interface::kProfiledLinesConstant, lights) > 0 ||
+                count_of<scene::LineLight>(interface::kProfiledTubesConstant, lights) > 0,
+            count_of<scene::EnvironmentLight>(interface::kMappedPortalsConstant, lights) > 0};
 }
 
 std::optional<std::string> why_unsupported_with(const LightsWithoutIntegral& lights,
@@ -41,6 +46,27 @@ std::optional<std::string> why_unsupported_with(const LightsWithoutIntegral& lig
     if (settings.technique == render::Technique::ltc_analytic && lights.mapped_portals)
         return "--technique ltc_analytic is not supported on GPUs for portals of environments with a map";
     return render_vulkan::why_unsupported(settings);
+}
+
+/// Whether the CPU would sample profiles of lines in proportion to their radiance: takes_products() of its kernel.
+bool asks_for_products(const render::RenderSettings& settings) {
+    using render::Technique;
+    return settings.emission_sampling == render::EmissionSampling::product &&
+           (settings.technique == Technique::projected_solid_angle ||
+            settings.technique == Technique::projected_solid_angle_biased);
+}
+
+/// The same for profiles of polygons and for portals: takes_windowed_products(), for the strategies that have products.
+bool asks_for_windowed_products(const render::RenderSettings& settings) {
+    const bool is_optimal =
+        settings.strategies == render::Strategies::diffuse_ltc && settings.mis == render::Mis::optimal;
+    return asks_for_products(settings) && !is_optimal && !samples_visible_normals(settings.strategies);
+}
+
+/// \param lights that are sampled by their measure, although settings ask for products
+std::string sampling_warning(std::string_view lights, std::ptrdiff_t count) {
+    return std::string(lights) + " (" + std::to_string(count) + ") are sampled as with --emission-sampling " +
+           std::string(name_of(render::EmissionSampling::measure)) + ": GPUs have no other samples of them";
 }
 
 } // namespace
@@ -63,6 +89,24 @@ std::optional<std::string> why_unsupported(const scene::Scene& scene,
                                            const render::RenderSettings& settings) {
     if (auto reason = why_unsupported(scene.lights)) return reason;
     return why_unsupported_with(without_integral(scene.lights), settings);
+}
+
+std::vector<std::string> sampling_warnings(const scene::Scene& scene,
+                                           const render::RenderSettings& settings) {
+    std::vector<std::string> warnings;
+    const auto add = [&](std::string_view lights, std::ptrdiff_t count) {
+        if (count > 0) warnings.push_back(sampling_warning(lights, count));
+    };
+    if (asks_for_products(settings)) // tubes have none on the CPU either
+        add("linear lights and strips with a profile or a spread",
+            count_of<scene::LineLight>(interface::kProfiledLinesConstant, scene.lights));
+    if (asks_for_windowed_products(settings)) {
+        add("polygons with a profile, a spread or a honeycomb",
+            count_of<scene::PolygonLight>(interface::kProfiledPolygonsConstant, scene.lights));
+        add("portals of environments with a map",
+            count_of<scene::EnvironmentLight>(interface::kMappedPortalsConstant, scene.lights));
+    }
+    return warnings;
 }
 
 } // namespace nusselt::render_vulkan

@@ -1,5 +1,5 @@
 #pragma once
-/// What GPUs do not render. Reasons do not say what to do instead: for some programs it is `--backend cpu`.
+/// What GPUs do not render, or not as the settings say. Reasons do not say what to do instead: for some programs it is `--backend cpu`.
 
 #include "render/settings.h"
 #include "render_vulkan/scene_records.h"
@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace nusselt::render_vulkan {
 
@@ -19,5 +20,8 @@ std::optional<std::string> why_unsupported(const SceneKinds& kinds, const render
 
 /// The same for a scene: names the first kind of light that GPUs do not have, or else what its lights do not support.
 std::optional<std::string> why_unsupported(const scene::Scene& scene, const render::RenderSettings& settings);
+
+/// Names the lights that GPUs sample by another technique than the settings say.
+std::vector<std::string> sampling_warnings(const scene::Scene& scene, const render::RenderSettings& settings);
 
 } // namespace nusselt::render_vulkan

@@ -68,6 +68,16 @@ TEST_F(View, IsDrivenByAScript) {
     EXPECT_EQ(compared.exit_code, 0) << compared.out << compared.err;
 }
 
+TEST_F(View, WarnsOfLightsThatAreSampledInAnotherWay) {
+    const std::string view =
+        "view '" + kScenes + "/street.pbrt' --script '" + write("quit.txt", "quit\n") + "'";
+    const Outcome viewed = run(view, kDisplay);
+    EXPECT_EQ(viewed.exit_code, 0) << viewed.err;
+    EXPECT_NE(viewed.err.find("are sampled as with --emission-sampling measure"), std::string::npos)
+        << viewed.err;
+    EXPECT_EQ(run(view + " --quiet", kDisplay).err, "");
+}
+
 TEST_F(View, SaysWhatIsWrongWithAScript) {
     const std::string script = write("script.txt", "frames 1\nzoom 3\n");
     const Outcome viewed = run(kView + "--script '" + script + "'", kDisplay);

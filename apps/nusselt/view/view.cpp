@@ -12,6 +12,7 @@
 #include "base/file_checks.h"
 #include "gpu/device.h"
 #include "render_vulkan/shadows/shadow_scene.h"
+#include "render_vulkan/unsupported.h"
 #include "scene/rig/camera_file.h"
 #include "viewer/window/run_viewer.h"
 
@@ -67,8 +68,11 @@ int run_view(const ViewOptions& options) {
     scene::Scene scene = load_scene(render.scene, render.rigs);
     if (render.camera) apply_camera(scene::read_camera_file(*render.camera), scene);
     apply_resolution(render.resolution, scene);
-    if (!render.quiet)
+    if (!render.quiet) {
         for (const std::string& warning : scene.warnings) print_message("warning: {}\n", warning);
+        for (const std::string& warning : render_vulkan::sampling_warnings(scene, settings))
+            print_message("warning: {}\n", warning);
+    }
 
     const auto shadow_rays = render.shadow_rays ? from_name(render_vulkan::kShadowRays, *render.shadow_rays)
                                                 : render_vulkan::default_shadow_rays(device);

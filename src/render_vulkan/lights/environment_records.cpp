@@ -33,13 +33,6 @@ std::uint32_t add_map(const scene::EnvironmentMapTexels& map, const scene::Float
     return first;
 }
 
-/// The constant of the shape that a light is.
-int constant_of(const scene::EnvironmentLight& light) {
-    if (light.portal.size() > 0)
-        return light.map < 0 ? interface::kUniformPortalsConstant : interface::kMappedPortalsConstant;
-    return light.map < 0 ? interface::kUniformEnvironmentsConstant : interface::kMappedEnvironmentsConstant;
-}
-
 /// Appends the portal of a light, if it has one.
 StoredPolygon add_portal(const scene::EnvironmentLight& light, LightRecords& records) {
     if (light.portal.size() == 0) return {interface::kNoWords, {0, 0, 0}};
@@ -47,6 +40,12 @@ StoredPolygon add_portal(const scene::EnvironmentLight& light, LightRecords& rec
 }
 
 } // namespace
+
+int constant_of(const scene::EnvironmentLight& light) {
+    if (light.portal.size() > 0)
+        return light.map < 0 ? interface::kUniformPortalsConstant : interface::kMappedPortalsConstant;
+    return light.map < 0 ? interface::kUniformEnvironmentsConstant : interface::kMappedEnvironmentsConstant;
+}
 
 void write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto& environments = dynamic_cast<const scene::LightsOf<scene::EnvironmentLight>&>(list);

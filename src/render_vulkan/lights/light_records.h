@@ -47,6 +47,12 @@ struct LightRecords {
     }
 };
 
+// The specialisation constant of the shape that a light is.
+int constant_of(const scene::PolygonLight& light);
+int constant_of(const scene::LineLight& light);
+int constant_of(const scene::EnvironmentLight& light);
+int constant_of(const scene::PointLight& light);
+
 /// The reason for which shaders cannot have all of the lights; nothing if they can.
 std::optional<std::string> why_unsupported(const scene::Lights& lights);
 

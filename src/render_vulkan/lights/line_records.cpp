@@ -28,16 +28,6 @@ static_assert(is_number_of(TubeModel::linear, interface::kLinearTube) &&
               is_number_of(TubeModel::open, interface::kOpenTube) &&
               is_number_of(TubeModel::strip, interface::kStrip));
 
-/// The constant of the shape that a light is.
-int constant_of(const scene::LineLight& light) {
-    const bool is_tube = light.model == TubeModel::solid || light.model == TubeModel::open;
-    if (light.profile >= 0)
-        return is_tube ? interface::kProfiledTubesConstant : interface::kProfiledLinesConstant;
-    if (light.texture >= 0)
-        return is_tube ? interface::kTexturedTubesConstant : interface::kTexturedLinesConstant;
-    return is_tube ? interface::kTubesConstant : interface::kLinesConstant;
-}
-
 /// Appends the radiance along a light. \returns the number of the first word
 std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& light,
                           std::vector<std::uint32_t>& words) {
@@ -49,6 +39,15 @@ std::uint32_t add_profile(const scene::Scene& scene, const scene::LineLight& lig
 }
 
 } // namespace
+
+int constant_of(const scene::LineLight& light) {
+    const bool is_tube = light.model == TubeModel::solid || light.model == TubeModel::open;
+    if (light.profile >= 0)
+        return is_tube ? interface::kProfiledTubesConstant : interface::kProfiledLinesConstant;
+    if (light.texture >= 0)
+        return is_tube ? interface::kTexturedTubesConstant : interface::kTexturedLinesConstant;
+    return is_tube ? interface::kTubesConstant : interface::kLinesConstant;
+}
 
 void write_lines(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto& lines = dynamic_cast<const scene::LightsOf<scene::LineLight>&>(list);

@@ -22,12 +22,6 @@ static_assert(is_number_of(PointDistribution::isotropic, interface::kIsotropic) 
               is_number_of(PointDistribution::projected_image, interface::kProjectedImage) &&
               is_number_of(PointDistribution::profile, interface::kProfile));
 
-/// The constant of the shape that a light is.
-int constant_of(const scene::PointLight& light) {
-    if (light.distribution == PointDistribution::profile) return interface::kPointProfilesConstant;
-    return is_image(light.distribution) ? interface::kPointImagesConstant : interface::kPointsConstant;
-}
-
 /// Appends the luminaire of a light, if it has one. \returns its first word
 std::uint32_t add_luminaire(const scene::Scene& scene, const scene::PointLight& light,
                             LuminaireWords& luminaires, std::vector<std::uint32_t>& words) {
@@ -37,6 +31,11 @@ std::uint32_t add_luminaire(const scene::Scene& scene, const scene::PointLight& 
 }
 
 } // namespace
+
+int constant_of(const scene::PointLight& light) {
+    if (light.distribution == PointDistribution::profile) return interface::kPointProfilesConstant;
+    return is_image(light.distribution) ? interface::kPointImagesConstant : interface::kPointsConstant;
+}
 
 void write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto& points = dynamic_cast<const scene::LightsOf<scene::PointLight>&>(list);

@@ -27,13 +27,12 @@ interface::PolygonLightRecord make_record(const scene::PolygonLight& light, Ligh
     return record;
 }
 
-/// The constant of the shape that a light is.
+} // namespace
+
 int constant_of(const scene::PolygonLight& light) {
     if (light.profile >= 0) return interface::kProfiledPolygonsConstant;
     return light.texture < 0 ? interface::kPolygonsConstant : interface::kTexturedPolygonsConstant;
 }
-
-} // namespace
 
 void write_polygons(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const std::vector<scene::PolygonLight>& lights =
