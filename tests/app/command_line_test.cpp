@@ -139,9 +139,11 @@ TEST_F(CommandLine, ReproduceSaysWhichRendererIsMissing) {
 TEST_F(CommandLine, EveryBenchWritesOneFormat) {
     const std::string frame = " '" + kScenes + "/cornell-panel.pbrt' --resolution 16x16 --repetitions 1";
     for (const std::string& command :
-         {"bench rays" + frame, "bench strategies" + frame, std::string("bench tubes --repetitions 1"),
-          std::string("bench phong-lines --repetitions 1"), std::string("bench samplers --repetitions 1"),
-          std::string("bench accuracy --count 20"), std::string("bench shadows --count 5"),
+         {"bench rays" + frame, "bench strategies" + frame,
+          "bench emission-frames '" + kScenes + "/television.pbrt' --resolution 16x16 --repetitions 1",
+          std::string("bench tubes --repetitions 1"), std::string("bench phong-lines --repetitions 1"),
+          std::string("bench samplers --repetitions 1"), std::string("bench accuracy --count 20"),
+          std::string("bench shadows --count 5"),
           std::string("bench worst-case --target lines --starts 2 --convergence 10"),
           std::string("fuzz --count 64 --technique LineArea"),
           std::string("fit-ltc --size 2x2x2 --brdf lambert -o lambert")}) {
@@ -165,6 +167,20 @@ TEST_F(CommandLine, TimesASecondTechnique) {
         run_lab("bench strategies '" + kScenes + "/planes.pbrt' --resolution 64x48 --repetitions 3");
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     EXPECT_NE(bench.out.find("diffuse+ltc"), std::string::npos) << bench.out;
+}
+
+TEST_F(CommandLine, ComparesEmissionThatVariesWithItsMean) {
+    const Outcome none =
+        run_lab("bench emission-frames '" + kScenes + "/cornell-panel.pbrt' --resolution 16x16");
+    EXPECT_EQ(none.exit_code, 1);
+    expect_lab_message(none.err, "no area light has an image or a profile");
+    const Outcome bench = run_lab("bench emission-frames '" + kScenes +
+                                  "/television.pbrt' --resolution 64x48 --repetitions 3 --json -");
+    ASSERT_EQ(bench.exit_code, 0) << bench.err;
+    const auto rows = nusselt_test::records(nlohmann::json::parse(bench.out), "emission_frames");
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0]["ratio"], 1.0);
+    EXPECT_GT(rows[2]["ratio"], 1.0) << "products take time, and the uniform scene must have none";
 }
 
 TEST_F(CommandLine, MeasuresWhatLinesCost) {

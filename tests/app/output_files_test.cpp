@@ -40,7 +40,7 @@ TEST_F(OutputFiles, NoOutputReplacesAnInputOrAnotherOutput) {
         expect_message(run(arguments).err, "is an output and also an input");
     EXPECT_EQ(read("a.exr"), picture);
     expect_message(run("compare a.exr a.exr --diff d.png --abs-diff d.png").err, "another output");
-    for (const char* bench : {"rays", "strategies", "lines", "line-efficiency", "gpu"})
+    for (const char* bench : {"rays", "strategies", "emission-frames", "lines", "line-efficiency", "gpu"})
         expect_lab_message(run_lab(std::string("bench ") + bench + " scene.pbrt --json scene.pbrt").err,
                            "is an output and also an input");
     EXPECT_EQ(read("scene.pbrt"), "Camera \"perspective\"\n");
@@ -71,7 +71,7 @@ TEST_F(OutputFiles, NoOutputReplacesAFileOfTheScene) {
         EXPECT_EQ(outcome.exit_code, 1) << arguments;
         expect_message(outcome.err, "is an output and also an input");
     }
-    for (const char* bench : {"rays", "strategies", "lines", "line-efficiency", "gpu"})
+    for (const char* bench : {"rays", "strategies", "emission-frames", "lines", "line-efficiency", "gpu"})
         expect_lab_message(run_lab(std::string("bench ") + bench + " room.pbrt --json mesh.ply").err,
                            "is an output and also an input");
     for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read(files[i]), before[i]) << files[i];

@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include "apps/nusselt-lab/frames/bench_emission_frames.h"
 #include "apps/nusselt-lab/frames/bench_gpu_frames.h"
 #include "apps/nusselt-lab/frames/bench_line_efficiency.h"
 #include "apps/nusselt-lab/frames/bench_lines.h"
@@ -27,6 +28,7 @@ void setup_bench(CLI::App& app, int& exit_code) {
     command->require_subcommand(1);
     setup_bench_rays(*command, exit_code);
     setup_bench_strategies(*command, exit_code);
+    setup_bench_emission_frames(*command, exit_code);
     setup_bench_lines(*command, exit_code);
     setup_bench_line_efficiency(*command, exit_code);
     setup_bench_samplers(*command, exit_code);
