@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit site single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -31,6 +31,11 @@ gpu-kit: ## an archive that checks and measures the GPU of any machine: out/nuss
 	scripts/setup.sh build
 	scripts/build.sh kit_programs
 	scripts/pack.sh gpu-kit
+
+site: ## the documentation, the gallery and the report as pages for browsers: out/site
+	scripts/setup.sh site
+	scripts/build.sh apps/nusselt/all nusselt_lab_app
+	site/make.sh
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake
