@@ -114,7 +114,7 @@ function check(from, to,    layer) {
 
 # Headers of the compiler, for vector instructions.
 function is_of_compiler(from, name) {
-    return from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/ || from == "include/core" && name == "emmintrin.h"
+    return from == "include/simd" && name ~ /^(immintrin|arm_neon|wasm_simd128)\.h$/ || from == "include/core" && name == "emmintrin.h"
 }
 
 function check_shader(from, name, quoted) {
