@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh check|build|test
+# Usage: scripts/setup.sh check|build|wasm|test
 #   check  packages for the library and its tests
 #   build  also packages for the programs
+#   wasm   also packages for the library in WebAssembly
 #   test   also packages for all tests
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -15,8 +16,9 @@ fail() {
 case "${1:-}" in
     check) wanted='check' ;;
     build) wanted='check|build' ;;
-    test) wanted='check|build|test' ;;
-    *) fail "usage: scripts/setup.sh check|build|test" ;;
+    wasm) wanted='check|build|wasm' ;;
+    test) wanted='check|build|wasm|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|wasm|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
