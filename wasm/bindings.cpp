@@ -11,6 +11,7 @@ int nusselt_row(int technique, int columns) noexcept {
         if (kRows[row].technique == technique && kRows[row].takes(columns)) return row;
     return -1;
 }
+const char* nusselt_light(int row) noexcept { return kRows[row].light; }
 int nusselt_random_numbers(int row) noexcept { return kRows[row].random; }
 int nusselt_group_size(int row) noexcept { return kRows[row].group_size; }
 

@@ -7,6 +7,7 @@ extern "C" {
 
 /// The row of a technique for lights with so many columns, or -1: it does not take such lights.
 int nusselt_row(int technique, int columns) noexcept;
+const char* nusselt_light(int row) noexcept;  ///< what the technique samples, as in techniques.json
 int nusselt_random_numbers(int row) noexcept; ///< of a sample
 int nusselt_group_size(int row) noexcept;     ///< of four prepared lights [bytes]
 

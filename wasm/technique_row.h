@@ -15,7 +15,8 @@ namespace columns {
 /// A technique for lights with some numbers of columns. Functions take `groups` groups of four lights. Samples, densities and
 /// directions come in rounds: one of each light. A round is columns like those of lights, and follows the one before.
 struct TechniqueRow {
-    int technique; ///< its number
+    int technique;     ///< its number
+    const char* light; ///< the kind in techniques.json
     bool (*takes)(int columns) noexcept;
     int random;     ///< random numbers of a sample
     int group_size; ///< of a prepared group [bytes]
@@ -77,9 +78,9 @@ struct ColumnsOf {
         });
     }
 
-    static constexpr TechniqueRow row(int technique) noexcept {
-        return {technique, Light::takes, Light::kRandom, sizeof(Technique), prepare, sample,
-                pdf,       invert,       measure};
+    static constexpr TechniqueRow row(int technique, const char* light) noexcept {
+        return {technique, light,  Light::takes, Light::kRandom, sizeof(Technique),
+                prepare,   sample, pdf,          invert,         measure};
     }
 
 private:

@@ -62,11 +62,10 @@ class Columns {
         return this;
     }
 
-    read(): Float32Array {
+    read(values = new Float32Array(this.count * this.columns)): Float32Array {
         const memory = this.memory();
-        if (this.stride === this.count) return memory.slice();
-        const values = new Float32Array(this.count * this.columns);
-        for (let k = 0; k < this.columns; ++k)
+        if (this.stride === this.count) values.set(memory);
+        else for (let k = 0; k < this.columns; ++k)
             values.set(memory.subarray(k * this.stride, k * this.stride + this.count), k * this.count);
         return values;
     }
@@ -102,13 +101,14 @@ export class Lights {
 
     /**
      * @param u random numbers in [0, 1): for each round one column for lines, two columns for other lights.
+     * @param into where to write, in place of new arrays: samples of as many rounds of as many lights
      */
-    sample(u: Float32Array): Samples {
+    sample(u: Float32Array, into?: Samples): Samples {
         const rounds = this.roundsOf(u, this.random, "random numbers");
         return this.withColumns([this.random * rounds, 3 * rounds, rounds, 3 * rounds], ([random, wi, pdf, p]) => {
             this.exports.nusselt_sample(this.row, this.prepared, this.groups, rounds, random!.write(u).address,
                                         wi!.address, pdf!.address, p!.address);
-            return { wi: wi!.read(), pdf: pdf!.read(), p: p!.read() };
+            return { wi: wi!.read(into?.wi), pdf: pdf!.read(into?.pdf), p: p!.read(into?.p) };
         });
     }
 

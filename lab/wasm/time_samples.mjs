@@ -1,0 +1,118 @@
+/**
+ * Times samples in WebAssembly and in native code with packs of SSE 4.2: the same functions, the same lights, alternating.
+ * Prints medians [ns per sample or light, of lights with a sample each in several rounds] and their ratios: of the functions
+ * of the module, and of `sample()` of the package, which also copies random numbers in and samples out.
+ *
+ * Usage: node lab/wasm/time_samples.mjs PACKAGE NATIVE [REPETITIONS]
+ */
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { createInterface } from "node:readline";
+import { pathToFileURL } from "node:url";
+
+import { casesOf } from "./cases.mjs";
+
+// No power of two, for which all columns would share the same lines of caches. Runs are shorter than what others get of a
+// busy processor before it is our turn again.
+const COUNT = 1000;
+const ROUNDS = 4;
+const [folder, native, repetitions = "101"] = process.argv.slice(2);
+const { load, techniques } = await import(pathToFileURL(resolve(folder, "nusselt.js")));
+
+const directory = mkdtempSync(join(tmpdir(), "nusselt-"));
+const file = join(directory, "native");
+execFileSync(native, ["results", String(COUNT), String(ROUNDS), file]);
+// Each case with ordinary lights follows that with hostile ones. Bounds for eight vertices are timed with six.
+const cases = [...casesOf(file)].filter((it, i) => i % 2 === 1 && isTimed(it));
+rmSync(directory, { recursive: true });
+
+function isTimed({ technique, columns }) {
+    const { light } = techniques[technique];
+    if (!light.startsWith("polygon")) return true;
+    return [12, 18].includes(columns - (light.endsWith("_on_lobe") ? 5 : 0));
+}
+
+const child = spawn(native, ["time", String(COUNT), String(ROUNDS)], { stdio: ["pipe", "pipe", "inherit"] });
+const answers = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
+
+async function nativeTimes({ technique, columns }) {
+    child.stdin.write(`${technique} ${columns}\n`);
+    const [prepare, sample] = (await answers.next()).value.split(" ").map(Number);
+    return { prepare, sample };
+}
+
+/** The times of a second run; the first one brings memory and code into caches. */
+function nanoseconds(run) {
+    run();
+    const start = process.hrtime.bigint();
+    run();
+    return Number(process.hrtime.bigint() - start);
+}
+
+const module = await WebAssembly.compile(readFileSync(join(folder, "nusselt.wasm")));
+const imports = { env: { emscripten_notify_memory_growth() {} } };
+const { exports } = await WebAssembly.instantiate(module, imports);
+exports._initialize();
+
+/** Memory of the module for numbers. */
+function allocate(length, values) {
+    const address = exports.malloc(4 * length);
+    if (values) new Float32Array(exports.memory.buffer, address, length).set(values);
+    return address;
+}
+
+function moduleTimes({ technique, columns, inputs }) {
+    const row = exports.nusselt_row(technique, columns);
+    const groups = COUNT / 4;
+    const samples = COUNT * ROUNDS;
+    const addresses = [exports.malloc(groups * exports.nusselt_group_size(row)),
+                       allocate(inputs.lights.length, inputs.lights), allocate(inputs.u.length, inputs.u),
+                       allocate(3 * samples), allocate(samples), allocate(3 * samples)];
+    const [prepared, lights, ...columnsOfSamples] = addresses;
+    const prepare = nanoseconds(() => exports.nusselt_prepare(row, lights, columns, groups, prepared));
+    const sample = nanoseconds(() => exports.nusselt_sample(row, prepared, groups, ROUNDS, ...columnsOfSamples));
+    for (const address of addresses) exports.free(address);
+    return { prepare: prepare / COUNT, sample: sample / samples };
+}
+
+const nusselt = await load();
+
+function packageTimes({ technique, inputs }) {
+    const lights = nusselt.prepare(techniques[technique].name, COUNT, inputs.lights);
+    const samples = lights.sample(inputs.u);
+    const sample = nanoseconds(() => lights.sample(inputs.u, samples));
+    lights.free();
+    return { sample: sample / COUNT / ROUNDS };
+}
+
+const median = values => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+const rows = cases.map(it => ({ it, native: [], module: [], package: [] }));
+// Engines compile a module quickly first, and well while it runs.
+for (const { it } of rows) for (let i = 0; i < 20; ++i) moduleTimes(it);
+for (let i = 0; i < Number(repetitions); ++i) {
+    for (const row of rows) {
+        row.native.push(await nativeTimes(row.it));
+        row.module.push(moduleTimes(row.it));
+        row.package.push(packageTimes(row.it));
+    }
+}
+child.stdin.end();
+
+console.log("| technique | columns | native: prepare | sample | module: prepare | ratio | sample | ratio | package: sample | ratio |");
+console.log("|---|---|---|---|---|---|---|---|---|---|");
+const ratios = [];
+for (const { it, ...times } of rows) {
+    const of = (who, what) => median(times[who].map(time => time[what]));
+    const [prepare, sample] = [of("native", "prepare"), of("native", "sample")];
+    const ratio = (who, what) => of(who, what) / of("native", what);
+    ratios.push(ratio("module", "sample"));
+    const cells = [techniques[it.technique].name, it.columns, prepare.toFixed(1), sample.toFixed(1),
+                   of("module", "prepare").toFixed(1), ratio("module", "prepare").toFixed(2),
+                   of("module", "sample").toFixed(1), ratio("module", "sample").toFixed(2),
+                   of("package", "sample").toFixed(1), ratio("package", "sample").toFixed(2)];
+    console.log(`| ${cells.join(" | ")} |`);
+}
+console.log(`\nSamples in the module take ${Math.min(...ratios).toFixed(2)} to ${Math.max(...ratios).toFixed(2)} times ` +
+            `as long as in native code, ${median(ratios).toFixed(2)} in the median.`);
