@@ -1,7 +1,7 @@
 #pragma once
 /// What the WebAssembly module exports. A technique has its number in the generated table, and one row or several, for
-/// different lights. Lights and samples are columns in memory (light_columns.h, technique_row.h). Callers keep to the sizes
-/// that these functions tell: nothing is checked.
+/// different lights. Lights and samples are columns in memory (light_columns.h, technique_row.h). Callers keep to the
+/// sizes that these functions tell: nothing is checked.
 
 extern "C" {
 

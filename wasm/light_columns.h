@@ -43,8 +43,8 @@ struct Writer {
     }
 };
 
-/// \name The kinds of lights of techniques.json. kRandom is how many random numbers a sample takes, takes() whether lights may
-/// have so many columns, and read() returns what the constructor of a technique takes.
+/// \name The kinds of lights of techniques.json. kRandom is how many random numbers a sample takes, takes() whether
+/// lights may have so many columns, and read() returns what the constructor of a technique takes.
 /// @{
 
 /// Columns x, y, z of each vertex [m].

@@ -3,11 +3,11 @@
  * Prints medians [ns per sample or light, of lights with a sample each in several rounds] and their ratios: of the functions
  * of the module, and of `sample()` of the package, which also copies random numbers in and samples out.
  *
- * Usage: node lab/wasm/time_samples.mjs PACKAGE NATIVE [REPETITIONS]
+ * Usage: node lab/wasm/time_samples.mjs PACKAGE NATIVE [REPETITIONS [FILE.JSON]]
  */
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpus, tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
@@ -18,21 +18,23 @@ import { casesOf } from "./cases.mjs";
 // busy processor before it is our turn again.
 const COUNT = 1000;
 const ROUNDS = 4;
-const [folder, native, repetitions = "101"] = process.argv.slice(2);
+const [folder, native, repetitions = "101", json] = process.argv.slice(2);
 const { load, techniques } = await import(pathToFileURL(resolve(folder, "nusselt.js")));
 
 const directory = mkdtempSync(join(tmpdir(), "nusselt-"));
 const file = join(directory, "native");
 execFileSync(native, ["results", String(COUNT), String(ROUNDS), file]);
 // Each case with ordinary lights follows that with hostile ones. Bounds for eight vertices are timed with six.
-const cases = [...casesOf(file)].filter((it, i) => i % 2 === 1 && isTimed(it));
+const cases = [...casesOf(file)].filter((it, i) => i % 2 === 1 && [null, 4, 6].includes(verticesOf(it)));
 rmSync(directory, { recursive: true });
 
-function isTimed({ technique, columns }) {
+/** Of a polygon, else null. */
+function verticesOf({ technique, columns }) {
     const { light } = techniques[technique];
-    if (!light.startsWith("polygon")) return true;
-    return [12, 18].includes(columns - (light.endsWith("_on_lobe") ? 5 : 0));
+    return light.startsWith("polygon") ? (columns - (light.endsWith("_on_lobe") ? 5 : 0)) / 3 : null;
 }
+
+const packageVersion = () => JSON.parse(readFileSync(join(folder, "package.json"), "utf8")).version;
 
 const child = spawn(native, ["time", String(COUNT), String(ROUNDS)], { stdio: ["pipe", "pipe", "inherit"] });
 const answers = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
@@ -52,7 +54,8 @@ function nanoseconds(run) {
 }
 
 const module = await WebAssembly.compile(readFileSync(join(folder, "nusselt.wasm")));
-const imports = { env: { emscripten_notify_memory_growth() {} } };
+const imports = {};
+for (const { module: from, name } of WebAssembly.Module.imports(module)) (imports[from] ??= {})[name] = () => {};
 const { exports } = await WebAssembly.instantiate(module, imports);
 exports._initialize();
 
@@ -100,19 +103,24 @@ for (let i = 0; i < Number(repetitions); ++i) {
 }
 child.stdin.end();
 
-console.log("| technique | columns | native: prepare | sample | module: prepare | ratio | sample | ratio | package: sample | ratio |");
-console.log("|---|---|---|---|---|---|---|---|---|---|");
-const ratios = [];
-for (const { it, ...times } of rows) {
+const names = ["technique", "vertices", "native_prepare_ns", "native_sample_ns", "module_prepare_ns", "module_sample_ns",
+               "package_sample_ns", "prepare_ratio", "sample_ratio", "package_ratio"];
+const table = rows.map(({ it, ...times }) => {
     const of = (who, what) => median(times[who].map(time => time[what]));
     const [prepare, sample] = [of("native", "prepare"), of("native", "sample")];
-    const ratio = (who, what) => of(who, what) / of("native", what);
-    ratios.push(ratio("module", "sample"));
-    const cells = [techniques[it.technique].name, it.columns, prepare.toFixed(1), sample.toFixed(1),
-                   of("module", "prepare").toFixed(1), ratio("module", "prepare").toFixed(2),
-                   of("module", "sample").toFixed(1), ratio("module", "sample").toFixed(2),
-                   of("package", "sample").toFixed(1), ratio("package", "sample").toFixed(2)];
-    console.log(`| ${cells.join(" | ")} |`);
-}
+    return [techniques[it.technique].name, verticesOf(it), prepare, sample, of("module", "prepare"), of("module", "sample"),
+            of("package", "sample"), of("module", "prepare") / prepare, of("module", "sample") / sample,
+            of("package", "sample") / sample];
+});
+console.log(`| ${names.join(" | ")} |\n|${"---|".repeat(names.length)}`);
+for (const row of table) console.log(`| ${row.map(cell => Number.isInteger(cell) || typeof cell !== "number" ? cell ?? "-" : cell.toFixed(2)).join(" | ")} |`);
+const ratios = table.map(row => row[names.indexOf("sample_ratio")]);
 console.log(`\nSamples in the module take ${Math.min(...ratios).toFixed(2)} to ${Math.max(...ratios).toFixed(2)} times ` +
             `as long as in native code, ${median(ratios).toFixed(2)} in the median.`);
+if (json)
+    writeFileSync(json, JSON.stringify({
+        bench: "wasm", command: `scripts/time-wasm.sh ${repetitions} ${json}`, version: packageVersion(),
+        machine: { processor: cpus()[0].model, threads: cpus().length },
+        settings: { repetitions: Number(repetitions), node: process.version },
+        tables: [{ name: "samples", columns: names.map(name => name.endsWith("_ns") ? { name, unit: "ns" } : { name }), rows: table }],
+    }, null, 1) + "\n");

@@ -71,4 +71,12 @@ const { instantiate } = await read("bare.js");
 const bare = await instantiate(readFileSync(join(folder, "nusselt.wasm")));
 assert.deepEqual(bare.prepare("PolygonArea", 1, columnsOf([side])).measure(), Float32Array.of(4));
 assert.ok(readFileSync(join(folder, "nusselt.global.js")).length < 400e3);
-console.log(`${techniques.length} techniques`);
+
+// The examples of the documentation run.
+const root = new URL("../../", import.meta.url);
+for (const page of ["docs/wasm.md", "wasm/package/README.md"]) {
+    const examples = [...readFileSync(new URL(page, root), "utf8").matchAll(/^```js\n(.*?)^```/gms)];
+    assert.equal(examples.length, 1, page);
+    const text = examples[0][1].replace('"nusselt"', JSON.stringify(pathToFileURL(join(folder, "nusselt.js"))));
+    await import(`data:text/javascript,${encodeURIComponent(text)}`);
+}
