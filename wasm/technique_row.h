@@ -12,8 +12,9 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace columns {
 
-/// A technique for lights with some numbers of columns. Functions take `groups` groups of four lights. Samples, densities and
-/// directions come in rounds: one of each light. A round is columns like those of lights, and follows the one before.
+/// A technique for lights with some numbers of columns. Functions take `groups` groups of four lights. Samples,
+/// densities and directions come in rounds: one of each light. A round is columns like those of lights, and follows
+/// the one before.
 struct TechniqueRow {
     int technique;     ///< its number
     const char* light; ///< the kind in techniques.json

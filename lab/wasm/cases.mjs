@@ -14,7 +14,9 @@ export function* casesOf(file) {
         const [technique, columns, count, rounds, random] = new Int32Array(buffer, offset, 5);
         offset += 20;
         const samples = count * rounds;
-        const inputs = { lights: numbers(count * columns), u: numbers(samples * random), directions: numbers(3 * samples) };
+        const inputs = {
+            lights: numbers(count * columns), u: numbers(samples * random), directions: numbers(3 * samples),
+        };
         const results = {
             wi: numbers(3 * samples), pdf: numbers(samples), p: numbers(3 * samples), measure: numbers(count),
             densities: numbers(samples), inverses: numbers(samples * random),

@@ -70,7 +70,8 @@ bitsOf(changed.inputs.u)[last.inputs.u.findIndex((u, i) => u > 0.1 && last.resul
 if (differences(resultsOf(techniques[last.technique].name, changed), last.results) === 0)
     failures.push("the last bit of a random number changes nothing");
 const other = techniques.find(({ light }, i) => light === techniques[last.technique].light && i !== last.technique);
-if (differences(resultsOf(other.name, last), last.results) === 0) failures.push(`${other.name} passes for another technique`);
+if (differences(resultsOf(other.name, last), last.results) === 0)
+    failures.push(`${other.name} passes for another technique`);
 
 console.log(failures.join("\n") || `${numbers} numbers of ${seen.size} techniques have the bits of native code`);
 process.exitCode = failures.length > 0 ? 1 : 0;

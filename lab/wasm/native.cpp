@@ -1,7 +1,8 @@
 /// The native side of comparisons with WebAssembly: the same functions over columns, compiled for SSE 4.2.
 ///
 /// Usage: native results COUNT ROUNDS FILE
-///            writes COUNT hostile and as many ordinary lights for each technique and number of vertices, with all results
+///            writes COUNT hostile and as many ordinary lights for each technique and number of vertices, with all
+///            results
 ///        native time COUNT ROUNDS
 ///            for each line `technique columns` of the input, measures these ordinary lights and prints
 ///            `ns per light, ns per sample`

@@ -1,7 +1,7 @@
 /**
- * Times samples in WebAssembly and in native code with packs of SSE 4.2: the same functions, the same lights, alternating.
- * Prints medians [ns per sample or light, of lights with a sample each in several rounds] and their ratios: of the functions
- * of the module, and of `sample()` of the package, which also copies random numbers in and samples out.
+ * Times samples in WebAssembly and in native code with packs of SSE 4.2: the same functions, the same lights,
+ * alternating. Prints medians [ns per light or sample] and their ratios: of the functions of the module, and of
+ * `sample()` of the package, which also copies random numbers in and samples out.
  *
  * Usage: node lab/wasm/time_samples.mjs PACKAGE NATIVE [REPETITIONS [FILE.JSON]]
  */
@@ -14,8 +14,8 @@ import { pathToFileURL } from "node:url";
 
 import { casesOf } from "./cases.mjs";
 
-// No power of two, for which all columns would share the same lines of caches. Runs are shorter than what others get of a
-// busy processor before it is our turn again.
+// No power of two, for which all columns would share the same lines of caches. Runs last less than a millisecond: the
+// scheduler interrupts longer ones where others wait.
 const COUNT = 1000;
 const ROUNDS = 4;
 const [folder, native, repetitions = "101", json] = process.argv.slice(2);
@@ -33,8 +33,6 @@ function verticesOf({ technique, columns }) {
     const { light } = techniques[technique];
     return light.startsWith("polygon") ? (columns - (light.endsWith("_on_lobe") ? 5 : 0)) / 3 : null;
 }
-
-const packageVersion = () => JSON.parse(readFileSync(join(folder, "package.json"), "utf8")).version;
 
 const child = spawn(native, ["time", String(COUNT), String(ROUNDS)], { stdio: ["pipe", "pipe", "inherit"] });
 const answers = createInterface({ input: child.stdout })[Symbol.asyncIterator]();
@@ -103,24 +101,29 @@ for (let i = 0; i < Number(repetitions); ++i) {
 }
 child.stdin.end();
 
-const names = ["technique", "vertices", "native_prepare_ns", "native_sample_ns", "module_prepare_ns", "module_sample_ns",
-               "package_sample_ns", "prepare_ratio", "sample_ratio", "package_ratio"];
+const names = ["technique", "vertices", "native_prepare_ns", "native_sample_ns", "module_prepare_ns",
+               "module_sample_ns", "package_sample_ns", "prepare_ratio", "sample_ratio", "package_ratio"];
 const table = rows.map(({ it, ...times }) => {
     const of = (who, what) => median(times[who].map(time => time[what]));
     const [prepare, sample] = [of("native", "prepare"), of("native", "sample")];
-    return [techniques[it.technique].name, verticesOf(it), prepare, sample, of("module", "prepare"), of("module", "sample"),
-            of("package", "sample"), of("module", "prepare") / prepare, of("module", "sample") / sample,
-            of("package", "sample") / sample];
+    const inModule = [of("module", "prepare"), of("module", "sample")];
+    const inPackage = of("package", "sample");
+    return [techniques[it.technique].name, verticesOf(it), prepare, sample, ...inModule, inPackage,
+            inModule[0] / prepare, inModule[1] / sample, inPackage / sample];
 });
+const shown = cell => typeof cell === "number" && !Number.isInteger(cell) ? cell.toFixed(2) : cell ?? "-";
 console.log(`| ${names.join(" | ")} |\n|${"---|".repeat(names.length)}`);
-for (const row of table) console.log(`| ${row.map(cell => Number.isInteger(cell) || typeof cell !== "number" ? cell ?? "-" : cell.toFixed(2)).join(" | ")} |`);
+for (const row of table) console.log(`| ${row.map(shown).join(" | ")} |`);
 const ratios = table.map(row => row[names.indexOf("sample_ratio")]);
-console.log(`\nSamples in the module take ${Math.min(...ratios).toFixed(2)} to ${Math.max(...ratios).toFixed(2)} times ` +
-            `as long as in native code, ${median(ratios).toFixed(2)} in the median.`);
-if (json)
+const [least, middle, most] = [Math.min(...ratios), median(ratios), Math.max(...ratios)].map(x => x.toFixed(2));
+console.log(`\nSamples in the module take ${least} to ${most} times as long as in native code, ${middle} in the median.`);
+if (json) {
+    const columns = names.map(name => name.endsWith("_ns") ? { name, unit: "ns" } : { name });
+    const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     writeFileSync(json, JSON.stringify({
-        bench: "wasm", command: `scripts/time-wasm.sh ${repetitions} ${json}`, version: packageVersion(),
+        bench: "wasm", command: `scripts/time-wasm.sh ${repetitions} ${json}`, version,
         machine: { processor: cpus()[0].model, threads: cpus().length },
         settings: { repetitions: Number(repetitions), node: process.version },
-        tables: [{ name: "samples", columns: names.map(name => name.endsWith("_ns") ? { name, unit: "ns" } : { name }), rows: table }],
+        tables: [{ name: "samples", columns, rows: table }],
     }, null, 1) + "\n");
+}

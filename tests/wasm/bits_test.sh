@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The package in Node.js has the bits of native code, for hostile and for ordinary lights. The number of lights is no multiple
-# of four, so that columns are padded.
+# The package in Node.js has the bits of native code, for hostile and for ordinary lights. The number of lights is no
+# multiple of four, so that columns are padded.
 # Usage: bits_test.sh NODE PACKAGE NATIVE FILE
 set -euo pipefail
 cd "$(dirname "$0")/../.."

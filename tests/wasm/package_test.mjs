@@ -36,7 +36,7 @@ for (let i = 0; i < 5; ++i) assert.ok(Math.abs(p[2 * 5 + i] - 1) < 1e-6, "points
 const again = windows.sample(u, { wi, pdf, p });
 assert.equal(again.wi, wi);
 
-// A triangle is a quadrilateral with a repeated vertex; octagons have more slots; lights of five lanes are those of one.
+// A triangle is a quadrilateral with a repeated vertex; octagons have more slots.
 const triangle = [0, 0, 1, 1, 0, 1, 0, 1, 1];
 const octagon = Array.from({ length: 8 }, (_, j) => [Math.cos(j * Math.PI / 4), Math.sin(j * Math.PI / 4), 1]).flat();
 const areas = rows => nusselt.prepare("PolygonArea", rows.length, columnsOf(rows)).measure();
@@ -45,7 +45,8 @@ assert.deepEqual([...areas([[...triangle, 0, 1, 1]])], [0.5]);
 assert.ok(Math.abs(areas([octagon])[0] - Math.SQRT2 * 2) < 1e-6);
 
 // Wrong use has an error that says what is wrong.
-const fails = (run, message) => assert.throws(run, error => error.message.startsWith("nusselt: ") && message.test(error.message));
+const fails = (run, message) =>
+    assert.throws(run, error => error.message.startsWith("nusselt: ") && message.test(error.message));
 fails(() => nusselt.prepare("PolygonAera", 1, new Float32Array(12)), /no technique PolygonAera; there are Polygon/);
 fails(() => nusselt.prepare("PolygonArea", 1, new Float32Array(13)), /takes no 1 lights from 13 numbers/);
 fails(() => nusselt.prepare("PolygonArea", 0, new Float32Array(0)), /takes no 0 lights/);

@@ -18,7 +18,8 @@ PAGE = """<!doctype html>
 <script src="{script}"></script>
 <script>
     nusselt.load().then(library => {{
-        const lights = library.prepare("PolygonProjectedSolidAngle", 1, Float32Array.of(-1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1));
+        const corners = Float32Array.of(-1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1);
+        const lights = library.prepare("PolygonProjectedSolidAngle", 1, corners);
         window.measure = lights.measure()[0];
         window.density = lights.sample(Float32Array.of(0.25, 0.5)).pdf[0];
         document.documentElement.dataset.state = "ready";

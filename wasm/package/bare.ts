@@ -1,12 +1,12 @@
 /**
- * The library over columns of numbers, for whoever brings the module (`nusselt.wasm`). Most programs take `load()` of the
- * main entry, which has it.
+ * The library over columns of numbers, for whoever brings the module (`nusselt.wasm`). Most programs take `load()` of
+ * the main entry, which has it.
  *
  * Lights and directions are in shading space: the shading point is the origin, the normal is +z. Lengths are in metres,
  * densities in 1/sr (times the radius for lines, in m/sr).
  *
- * Arrays are in columns: number `k` of light `i` is at `k * count + i`. Samples, densities and directions come in rounds,
- * one of each light; a round is columns like those of lights and follows the one before.
+ * Arrays are in columns: number `k` of light `i` is at `k * count + i`. Samples, densities and directions come in
+ * rounds, one of each light; a round is columns like those of lights and follows the one before.
  */
 import { techniques, type TechniqueName } from "./techniques.js";
 
