@@ -76,9 +76,10 @@ class Columns {
     }
 }
 
+/** The module has at most 2 GB. Larger sizes would lose their upper bits in its integers. */
 function allocate(exports: Exports, size: number): number {
-    const address = exports.malloc(size);
-    if (address === 0 && size > 0) throw new RangeError(`nusselt: no memory for ${size} bytes`);
+    const address = size < 2 ** 31 ? exports.malloc(size) : 0;
+    if (address === 0) throw new RangeError(`nusselt: no memory for ${size} bytes`);
     return address;
 }
 
@@ -95,8 +96,13 @@ export class Lights {
         this.random = exports.nusselt_random_numbers(row);
         this.prepared = allocate(exports, this.groups * exports.nusselt_group_size(row));
         const columns = lights.length / count;
-        this.withColumns([columns], ([light]) =>
-            exports.nusselt_prepare(row, light!.write(lights).address, columns, this.groups, this.prepared));
+        try {
+            this.withColumns([columns], ([light]) =>
+                exports.nusselt_prepare(row, light!.write(lights).address, columns, this.groups, this.prepared));
+        } catch (error) {
+            this.free();
+            throw error;
+        }
     }
 
     /**
