@@ -116,7 +116,7 @@ console.log(`| ${names.join(" | ")} |\n|${"---|".repeat(names.length)}`);
 for (const row of table) console.log(`| ${row.map(shown).join(" | ")} |`);
 const ratios = table.map(row => row[names.indexOf("sample_ratio")]);
 const [least, middle, most] = [Math.min(...ratios), median(ratios), Math.max(...ratios)].map(x => x.toFixed(2));
-console.log(`\nSamples in the module take ${least} to ${most} times as long as in native code, ${middle} in the median.`);
+console.log(`\nSamples in the module take ${least} to ${most} times as long as native ones, ${middle} in the median.`);
 if (json) {
     const columns = names.map(name => name.endsWith("_ns") ? { name, unit: "ns" } : { name });
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
