@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit site single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit wasm site single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -36,6 +36,10 @@ site: ## the documentation, the gallery and the report as pages for browsers: ou
 	scripts/setup.sh site
 	scripts/build.sh apps/nusselt/all nusselt_lab_app
 	site/make.sh
+wasm: ## the library for JavaScript as an npm package: out/wasm (docs/wasm.md)
+	scripts/setup.sh wasm
+	scripts/build.sh nusselt_wasm
+	cmake -E copy_directory build/release/wasm/package out/wasm
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake

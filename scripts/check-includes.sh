@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
-find include src proof lab apps shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
+find include src proof lab apps wasm shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
 BEGIN {
     # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
     # Templates see packs through the operations that core names. Only scalar code that takes vertices as lanes names them.
@@ -31,6 +31,8 @@ BEGIN {
     # Proofs are right above the library; tests, fuzzers and the laboratory share them. They check shadows in the form that
     # src/visibility stores (stored_shadows.h).
     allow("proof", "library src/visibility")
+    # The library for JavaScript.
+    allow("wasm", "library")
     allow("src/base", "")
     allow("src/image", "library src/base")
     # The scene: renderers see its model, which does not depend on formats. Importers describe the content of a file, the
@@ -65,7 +67,7 @@ BEGIN {
     allow("apps/viewer", below " src/scene/colour")
     # The product links nothing of the laboratory.
     allow("apps/nusselt", below " apps/common apps/viewer")
-    allow("lab", below " proof src/interface")
+    allow("lab", below " proof wasm src/interface")
     allow("apps/nusselt-lab", below " proof lab src/fit apps/common")
 
     allow("shaders/interface", "shaders/nusselt")
@@ -102,7 +104,7 @@ function layer_of(path,    parts, count, folder) {
 
 # The layer of "name/...": a path from the root for proof, lab and apps, else a module of src or apps/viewer.
 function included_layer(name) {
-    if (name ~ /^(proof|lab|apps)\//) return layer_of(name)
+    if (name ~ /^(proof|lab|apps|wasm)\//) return layer_of(name)
     return name ~ /^viewer\// ? "apps/viewer" : layer_of("src/" name)
 }
 
@@ -114,7 +116,7 @@ function check(from, to,    layer) {
 
 # Headers of the compiler, for vector instructions.
 function is_of_compiler(from, name) {
-    return from == "include/simd" && name ~ /^(immintrin|arm_neon)\.h$/ || from == "include/core" && name == "emmintrin.h"
+    return from == "include/simd" && name ~ /^(immintrin|arm_neon|wasm_simd128)\.h$/ || from == "include/core" && name == "emmintrin.h"
 }
 
 function check_shader(from, name, quoted) {

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh check|build|test
+# Usage: scripts/setup.sh check|build|site|wasm|test
 #   check  packages for the library and its tests
 #   build  also packages for the programs
+#   site   also packages for the site of the documentation
+#   wasm   also packages for the library in WebAssembly
 #   test   also packages for all tests
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -15,8 +17,10 @@ fail() {
 case "${1:-}" in
     check) wanted='check' ;;
     build) wanted='check|build' ;;
-    test) wanted='check|build|test' ;;
-    *) fail "usage: scripts/setup.sh check|build|test" ;;
+    site) wanted='check|build|site' ;;
+    wasm) wanted='check|build|wasm' ;;
+    test) wanted='check|build|site|wasm|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|site|wasm|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown

@@ -8,7 +8,7 @@ trap 'rm -rf "$tree"' EXIT
 # Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
 passes() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{include,src,proof,lab,apps,shaders} "$tree/$(dirname "$1")"
+    mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,shaders} "$tree/$(dirname "$1")"
     printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
     "$check" "$tree" >"$tree/report"
 }
@@ -27,6 +27,11 @@ right include/nusselt/sampling/a.h <nusselt/sampling/b.h>
 right include/nusselt/estimate/a.h <nusselt/related/b.h>
 right include/nusselt/simd/a.h <immintrin.h>
 right include/nusselt/simd/b.h <arm_neon.h>
+right include/nusselt/simd/c.h <wasm_simd128.h>
+right wasm/a.h "wasm/b.h"
+right wasm/a.h <nusselt/core/vec.h>
+wrong wasm/a.h "base/a.h"
+wrong src/base/a.h "wasm/a.h"
 right include/nusselt/nusselt.h <nusselt/sampling/b.h>
 right src/visibility/a.cpp "scene/model/b.h"
 right src/scene/build/polygons/a.cpp "scene/build/b.h"

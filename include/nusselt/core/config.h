@@ -56,6 +56,8 @@
 #define NUSSELT_ISA isa_sse42
 #elif defined(__aarch64__) && defined(__ARM_NEON)
 #define NUSSELT_ISA isa_neon
+#elif defined(__wasm_simd128__)
+#define NUSSELT_ISA isa_wasm_simd128
 #else
 #define NUSSELT_ISA isa_generic
 #endif

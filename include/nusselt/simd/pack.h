@@ -21,6 +21,7 @@
 #include <nusselt/simd/pack_neon.h>
 #include <nusselt/simd/pack_pair.h>
 #include <nusselt/simd/pack_sse.h>
+#include <nusselt/simd/pack_wasm.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The bases of Pack and Mask, over arrays. The specialisations in pack_sse.h, pack_avx2.h,
-/// pack_avx512.h and pack_neon.h have the same members over registers.
+/// pack_avx512.h, pack_neon.h and pack_wasm.h have the same members over registers.
 
 #include <cstdint>
 #include <cstring>
