@@ -154,7 +154,7 @@ class Site:
         folder = os.path.dirname(page)
 
         def replaced(match):
-            attribute, target = match.group(1), html.unescape(match.group(2))
+            target = html.unescape(match.group(2))
             if "://" in target or target.startswith(("#", "mailto:", "data:")):
                 if target.startswith("#"):
                     self.links.append((page, page, target[1:]))
@@ -167,9 +167,9 @@ class Site:
                 path = os.path.join(path, "README.md")
             self.links.append((page, path, anchor))
             address = os.path.relpath(address_of(path), folder or ".") + (f"#{anchor}" if anchor else "")
-            return f'{attribute}="{html.escape(address)}"'
+            return f'{match.group(1)}="{html.escape(address)}"'
 
-        return re.sub(r'\b(href|src)="([^"]*)"', replaced, body)
+        return re.sub(r'(<(?:a|img)\b[^>]*? (?:href|src))="([^"]*)"', replaced, body)
 
     def show(self, path):
         """Makes the page of a file or folder, unless it has one."""

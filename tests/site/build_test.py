@@ -51,7 +51,7 @@ class BuildTest(unittest.TestCase):
     def test_linked_files_and_folders_become_pages(self):
         (self.root / "code").mkdir()
         (self.root / "code/a.h").write_text("#include <b> & c")
-        body = self.made("[a](code/a.h) [folder](code) [far](https://example.org/x)")
+        body = self.made('[a](code/a.h) [folder](code) [far](https://example.org/x) `<a href="b.h">`')
         for link in ("code/a.h.html", "code/index.html", "https://example.org/x"):
             self.assertIn(f'href="{link}"', body)
         self.assertIn("#include &lt;b&gt; &amp; c", (self.root / "out/code/a.h.html").read_text())
