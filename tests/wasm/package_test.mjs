@@ -69,7 +69,7 @@ const { exports, license, type } = JSON.parse(readFileSync(join(folder, "package
 assert.deepEqual([license, type], ["MIT", "module"]);
 for (const file of Object.values(exports).flatMap(value => typeof value === "string" ? [value] : Object.values(value)))
     assert.ok(existsSync(join(folder, file)), file);
-for (const file of ["README.md", "LICENSE"]) assert.ok(existsSync(join(folder, file)), file);
+for (const file of ["README.md", "LICENSE", "licences/emscripten"]) assert.ok(existsSync(join(folder, file)), file);
 const { instantiate } = await read("bare.js");
 const bare = await instantiate(readFileSync(join(folder, "nusselt.wasm")));
 assert.deepEqual(bare.prepare("PolygonArea", 1, columnsOf([side])).measure(), Float32Array.of(4));
