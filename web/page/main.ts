@@ -22,10 +22,12 @@ const mostFrames = 4096;
 const mostFramesInFlight = 2;
 const referenceSide: Side = { technique: "projected_ltc", heuristic: "clamped_optimal", sampler: "sobol" };
 const referenceSeed = 1;
-/// Widths for "automatic" [pixels], and how fast frames must be for the larger one [ms].
-const slowWidth = 480;
-const fastWidth = 960;
-const fastFrame = 20;
+/// Widths for "automatic" [pixels]: the first one, unless frames take less or more time than these [ms].
+const firstWidth = 480;
+const fast = { frameTime: 20, width: 960 };
+const slow = { frameTime: 400, width: 320 };
+/// The reference waits for so many frames, since its program takes time to compile.
+const framesBeforeReference = 8;
 const errorInterval = 500; ///< [ms]
 
 class Page {
@@ -37,7 +39,7 @@ class Page {
     private readonly controls;
     private readonly numbers = makeNumbers();
     private readonly stage;
-    private automaticWidth = slowWidth;
+    private automaticWidth = firstWidth;
     /// Images whose programs have drawn.
     private readonly warm = new Set<string>();
     private frame = 0;
@@ -162,7 +164,7 @@ class Page {
         if (state.compares) images.push(["right", { ...state.right, samples, shadows, seed: 0 }]);
         // On slow devices, the reference takes a quarter of the time.
         const isResting = performance.now() - this.lastChange > 300;
-        if (state.reference && isResting && (this.frameTime < 100 || this.frame % 4 === 3))
+        if (state.reference && isResting && this.frame >= framesBeforeReference && (this.frameTime < 100 || this.frame % 4 === 3))
             images.push(["reference", { ...referenceSide, samples: 1, shadows, seed: referenceSeed }]);
         return images;
     }
@@ -214,10 +216,7 @@ class Page {
         this.lastTime = now;
         // Those before took part in compiling.
         if (++this.steadyFrames > 3) this.frameTime = this.steadyFrames < 8 ? interval : 0.9 * this.frameTime + 0.1 * interval;
-        if (state.width === 0 && this.steadyFrames === 20 && this.frameTime < fastFrame && this.automaticWidth === slowWidth) {
-            this.automaticWidth = fastWidth;
-            this.update(state);
-        }
+        if (state.width === 0 && this.steadyFrames === 8 && this.automaticWidth === firstWidth) this.chooseWidth();
         if (now - this.lastErrors > errorInterval && renderer.frameCount("reference") > 0) {
             this.lastErrors = now;
             void renderer.errors().then(errors => { this.errors = errors; });
@@ -227,6 +226,13 @@ class Page {
             leftSamples: state.samples * renderer.frameCount("left"), referenceSamples: renderer.frameCount("reference"),
             errors: state.reference ? this.errors : null, compares: state.compares,
         });
+    }
+
+    private chooseWidth(): void {
+        const width = this.frameTime < fast.frameTime ? fast.width : this.frameTime > slow.frameTime ? slow.width : firstWidth;
+        if (width === this.automaticWidth) return;
+        this.automaticWidth = width;
+        this.update(this.state);
     }
 }
 

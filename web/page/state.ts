@@ -56,7 +56,7 @@ export function initialState(): State {
     return {
         scene: "floor",
         left: { technique: "area", heuristic: "clamped_optimal", sampler: "sobol" },
-        right: { technique: "projected_ltc", heuristic: "clamped_optimal", sampler: "sobol" },
+        right: { technique: "projected", heuristic: "clamped_optimal", sampler: "sobol" },
         compares: true, wipe: 0.5, samples: 1, accumulates: true, shadows: true, reference: true, shows: "image",
         roughness: null, exposure: 0, width: 0, camera: null, lamps: [],
     };
