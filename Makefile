@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit single-header shaders page clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -37,6 +37,9 @@ single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 
 shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
 	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
+
+page: ## the live page in one file: out/page/index.html (needs python3 and esbuild only; docs/page.md)
+	scripts/build-page.py out/page/index.html
 
 clean: ## removes build/ and out/
 	rm -rf build out

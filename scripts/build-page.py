@@ -50,7 +50,7 @@ def scenes():
 
 def script():
     return subprocess.run(["esbuild", "--bundle", "--format=iife", "--target=es2020", "--charset=utf8",
-                           str(ROOT / "web/page/main.ts")], check=True, stdout=subprocess.PIPE, text=True).stdout
+                           "--minify-whitespace", "--minify-syntax", str(ROOT / "web/page/main.ts")], check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 def page():

@@ -18,10 +18,10 @@ interface Data {
     readonly lobes: string;
 }
 
-const mostFrames = 4096;
 const mostFramesInFlight = 2;
-const referenceSide: Side = { technique: "projected_ltc", heuristic: "clamped_optimal", sampler: "sobol" };
 const referenceSeed = 1;
+/// Frames of devices for which the reference takes less noise and more code [ms].
+const referenceFrameTime = 100;
 /// Widths for "automatic" [pixels]: the first one, unless frames take less or more time than these [ms].
 const firstWidth = 480;
 const fast = { frameTime: 20, width: 960 };
@@ -51,11 +51,12 @@ class Page {
     private frameTime = 0;
     private steadyFrames = 0;
     private lastChange = 0;
+    private referenceTechnique = "projected";
     private errors: Errors | null = null;
     private lastErrors = 0;
     private isDirty = true;
 
-    constructor(data: Data) {
+    constructor(private readonly data: Data) {
         this.state = stateOf(location.hash);
         this.files = new Map(Object.entries(data.scenes));
         this.scene = this.readScene();
@@ -65,7 +66,7 @@ class Page {
         this.controls = makeControls({
             change,
             chooseScene: name => this.change(state => Object.assign(state, { scene: name, camera: null, lamps: [], roughness: null })),
-            shaderText: side => data.licence + this.renderer.shaderText(side),
+            shaderText: side => this.shaderText(side),
             link: () => location.href.replace(/#.*/, "") + this.hash(),
         });
         document.getElementById("page")?.append(this.stage.node, this.numbers.node, this.controls.node, help());
@@ -95,6 +96,9 @@ class Page {
     }
 
     frames(name: ImageName): number { return this.renderer.frameCount(name); }
+
+    /// A complete fragment shader, as it runs.
+    shaderText(side: Side): string { return this.renderer.shaderText(side).replace("\n", `\n${this.data.licence}\n`); }
 
     private readScene(): Scene { return readScene(this.files, this.state.scene === "room" ? "scenes/room.pbrt" : "web/scenes/floor.pbrt"); }
 
@@ -131,7 +135,7 @@ class Page {
             renderer.setScene(changedScene(this.scene, this.lamps, state.lamps, state.roughness));
         if (changed("scene", "camera")) renderer.setView(this.view());
         this.resize();
-        if (changed("scene", "lamps", "roughness", "camera", "shadows", "accumulates")) this.clear();
+        if (changed("scene", "lamps", "roughness", "camera", "shadows", "accumulates", "mostFrames")) this.clear();
         for (const name of ["left", "right"] as const) if (changed(name, "samples")) renderer.clear([name]);
         if (changed("compares")) renderer.clear(["right"]);
         this.stage.show(state, [techniqueOf(state.left.technique).label, techniqueOf(state.right.technique).label]);
@@ -164,8 +168,12 @@ class Page {
         if (state.compares) images.push(["right", { ...state.right, samples, shadows, seed: 0 }]);
         // On slow devices, the reference takes a quarter of the time.
         const isResting = performance.now() - this.lastChange > 300;
-        if (state.reference && isResting && this.frame >= framesBeforeReference && (this.frameTime < 100 || this.frame % 4 === 3))
-            images.push(["reference", { ...referenceSide, samples: 1, shadows, seed: referenceSeed }]);
+        if (state.reference && isResting && this.frame >= framesBeforeReference && (this.frameTime < referenceFrameTime || this.frame % 4 === 3)) {
+            if (this.renderer.frameCount("reference") === 0)
+                this.referenceTechnique = this.frameTime < referenceFrameTime ? "projected_ltc" : "projected";
+            images.push(["reference", { technique: this.referenceTechnique, heuristic: "clamped_optimal", sampler: "sobol",
+                samples: 1, shadows, seed: referenceSeed }]);
+        }
         return images;
     }
 
@@ -180,7 +188,7 @@ class Page {
                 this.steadyFrames = 0;
                 this.warm.add(key);
             }
-            const isFinished = renderer.frameCount(name) >= mostFrames;
+            const isFinished = renderer.frameCount(name) >= state.mostFrames;
             if (name !== "reference" && !state.accumulates) renderer.clear([name]);
             else if (isFinished) continue;
             const first = state.accumulates || name === "reference" ? {} : { seed: 2 + this.frame };

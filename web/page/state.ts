@@ -32,6 +32,8 @@ export interface State {
     samples: number;
     /// Whether frames add up, else each one shows its noise.
     accumulates: boolean;
+    /// How many add up at most. Images are then functions of the state; only links change it.
+    mostFrames: number;
     shadows: boolean;
     /// Whether a reference adds up meanwhile.
     reference: boolean;
@@ -48,7 +50,7 @@ export interface State {
 }
 
 export const sceneNames = ["floor", "room"] as const;
-export const widths = [0, 320, 480, 640, 960, 1280, 1920] as const;
+export const widths = [0, 160, 320, 480, 640, 960, 1280, 1920] as const;
 
 export const untouchedLamp: LampState = { move: [0, 0, 0], turn: 0, tilt: 0, brightness: 1 };
 
@@ -57,7 +59,7 @@ export function initialState(): State {
         scene: "floor",
         left: { technique: "area", heuristic: "clamped_optimal", sampler: "sobol" },
         right: { technique: "projected", heuristic: "clamped_optimal", sampler: "sobol" },
-        compares: true, wipe: 0.5, samples: 1, accumulates: true, shadows: true, reference: true, shows: "image",
+        compares: true, wipe: 0.5, samples: 1, accumulates: true, mostFrames: 4096, shadows: true, reference: true, shows: "image",
         roughness: null, exposure: 0, width: 0, camera: null, lamps: [],
     };
 }
@@ -132,6 +134,7 @@ const fields: Record<string, Field> = {
     wipe: number(0, 1, state => state.wipe, (state, value) => { state.wipe = value; }),
     samples: number(1, 16, state => state.samples, (state, value) => { state.samples = Math.round(value); }),
     accumulate: flag(state => state.accumulates, (state, value) => { state.accumulates = value; }),
+    frames: number(1, 65536, state => state.mostFrames, (state, value) => { state.mostFrames = Math.round(value); }),
     shadows: flag(state => state.shadows, (state, value) => { state.shadows = value; }),
     reference: flag(state => state.reference, (state, value) => { state.reference = value; }),
     show: choice(["image", "error"] as const, state => state.shows, (state, value) => { state.shows = value; }),
