@@ -4,7 +4,8 @@ import { heuristics, samplers, techniqueOf, techniques } from "../library/techni
 import { Control, Option, button, checkbox, copyText, element, select, slider } from "./dom";
 import { Lamp } from "./lamps";
 import { Errors } from "./renderer";
-import { LampState, Side, State, sceneNames, untouchedLamp, widths } from "./state";
+import { scenes } from "./scenes";
+import { LampState, Side, State, untouchedLamp, widths } from "./state";
 
 /// What controls do with the rest of the page.
 export interface Actions {
@@ -18,8 +19,6 @@ export interface Actions {
 
 const optionsOf = (rows: readonly { name: string; label: string }[]): Option[] =>
     rows.map(({ name, label }) => ({ value: name, text: label }));
-
-const sceneLabels: Record<typeof sceneNames[number], string> = { floor: "Floor", room: "Room" };
 
 /// The heuristics that a technique can be combined with; none for a single technique.
 function heuristicsOf(side: Side): string[] {
@@ -111,8 +110,7 @@ export function makeControls(actions: Actions): Controls {
         value => change(state => { state.exposure = value; }));
     const sizes = widths.map(width => ({ value: String(width), text: width === 0 ? "Automatic" : `${width} × ${width * 9 / 16}` }));
     const size = select("Size", "size", sizes, value => change(state => { state.width = Number(value); }));
-    const scenes = sceneNames.map(name => ({ value: name as string, text: sceneLabels[name] }));
-    const scene = select("Scene", "scene", scenes, actions.chooseScene);
+    const scene = select("Scene", "scene", optionsOf(scenes), actions.chooseScene);
     const message = element("span", { class: "copied", role: "status" });
     const reset = button("Reset lights and view", { id: "reset" }, () => change(state => {
         state.camera = null;

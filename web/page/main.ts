@@ -6,6 +6,7 @@ import { makeControls, makeNumbers } from "./controls";
 import { element } from "./dom";
 import { Lamp, changedScene, floorOf, lampsOf } from "./lamps";
 import { Errors, ImageName, ImageSettings, Renderer } from "./renderer";
+import { sceneOf } from "./scenes";
 import { makeStage } from "./stage";
 import { Side, State, linkOf, stateOf } from "./state";
 
@@ -100,7 +101,7 @@ class Page {
     /// A complete fragment shader, as it runs.
     shaderText(side: Side): string { return this.renderer.shaderText(side).replace("\n", `\n${this.data.licence}\n`); }
 
-    private readScene(): Scene { return readScene(this.files, this.state.scene === "room" ? "scenes/room.pbrt" : "web/scenes/floor.pbrt"); }
+    private readScene(): Scene { return readScene(this.files, sceneOf(this.state.scene).file); }
 
     private view(): View { return { ...this.scene.view, ...this.state.camera }; }
 
@@ -145,7 +146,7 @@ class Page {
         this.errors = null;
         const hash = this.hash();
         // Nothing but the fragment changes, which browsers allow for files, too.
-        if (before !== null && hash !== location.hash) history.replaceState(null, "", hash || location.pathname);
+        if (before !== null && hash !== location.hash) history.replaceState(null, "", hash || location.pathname + location.search);
     }
 
     private clear(): void {
@@ -162,25 +163,30 @@ class Page {
 
     /// The images of this frame.
     private wanted(): [ImageName, ImageSettings][] {
-        const { state } = this;
+        const { state, renderer } = this;
         const { samples, shadows } = state;
         const images: [ImageName, ImageSettings][] = [["left", { ...state.left, samples, shadows, seed: 0 }]];
         if (state.compares) images.push(["right", { ...state.right, samples, shadows, seed: 0 }]);
-        // On slow devices, the reference takes a quarter of the time.
-        const isResting = performance.now() - this.lastChange > 300;
-        if (state.reference && isResting && this.frame >= framesBeforeReference && (this.frameTime < referenceFrameTime || this.frame % 4 === 3)) {
-            if (this.renderer.frameCount("reference") === 0)
-                this.referenceTechnique = this.frameTime < referenceFrameTime ? "projected_ltc" : "projected";
-            images.push(["reference", { technique: this.referenceTechnique, heuristic: "clamped_optimal", sampler: "sobol",
+        const isUnfinished = (name: ImageName) => !this.addsUp(name) || renderer.frameCount(name) < state.mostFrames;
+        const unfinished = images.filter(([name]) => isUnfinished(name));
+        // On slow devices, the reference takes a part of the time, and none while something moves.
+        const isFast = this.frameTime < referenceFrameTime;
+        const isResting = performance.now() - this.lastChange > 300 && this.frame >= framesBeforeReference;
+        const hasTime = isFast || this.frame % 4 === 3 || unfinished.length === 0;
+        if (state.reference && isResting && hasTime && isUnfinished("reference")) {
+            if (renderer.frameCount("reference") === 0) this.referenceTechnique = isFast ? "projected_ltc" : "projected";
+            unfinished.push(["reference", { technique: this.referenceTechnique, heuristic: "clamped_optimal", sampler: "sobol",
                 samples: 1, shadows, seed: referenceSeed }]);
         }
-        return images;
+        return unfinished;
     }
 
+    private addsUp(name: ImageName): boolean { return this.state.accumulates || name === "reference"; }
+
     /// A program that has never drawn may be compiled only then: one in each frame, so that what is ready is seen before.
-    private add(): void {
+    private add(images: readonly [ImageName, ImageSettings][]): void {
         const { state, renderer } = this;
-        for (const [name, settings] of this.wanted()) {
+        for (const [name, settings] of images) {
             const key = [settings.technique, settings.sampler, state.scene].join();
             if (!this.warm.has(key)) {
                 if (this.isCompiling || !renderer.isReady(settings)) continue;
@@ -188,21 +194,20 @@ class Page {
                 this.steadyFrames = 0;
                 this.warm.add(key);
             }
-            const isFinished = renderer.frameCount(name) >= state.mostFrames;
-            if (name !== "reference" && !state.accumulates) renderer.clear([name]);
-            else if (isFinished) continue;
-            const first = state.accumulates || name === "reference" ? {} : { seed: 2 + this.frame };
-            renderer.add(name, { ...settings, ...first });
+            if (!this.addsUp(name)) renderer.clear([name]);
+            renderer.add(name, this.addsUp(name) ? settings : { ...settings, seed: 2 + this.frame });
             this.isDirty = true;
         }
     }
 
     private draw(): void {
         const { state, renderer } = this;
+        const images = this.wanted();
+        if (images.length === 0 && !this.isDirty) return;
         // Without adding up, pixel centres: noise alone is seen, no changing edges.
         renderer.look(state.accumulates ? [halton(this.frame + 1, 2), halton(this.frame + 1, 3)] : [0.5, 0.5]);
-        this.add();
-        ++this.frame;
+        this.add(images);
+        if (images.length > 0) ++this.frame;
         if (this.isDirty) {
             const hasLeft = renderer.frameCount("left") > 0;
             const hasRight = state.compares && renderer.frameCount("right") > 0;
@@ -211,10 +216,11 @@ class Page {
             this.isDirty = false;
         }
         ++this.framesInFlight;
-        void renderer.completion().then(() => this.finishFrame());
+        void renderer.completion().then(() => this.finishFrame(images.length > 0));
     }
 
-    private finishFrame(): void {
+    /// \param isTimed whether it added to an image
+    private finishFrame(isTimed: boolean): void {
         const { state, renderer } = this;
         --this.framesInFlight;
         this.isCompiling = false;
@@ -223,11 +229,14 @@ class Page {
         const interval = now - this.lastTime;
         this.lastTime = now;
         // Those before took part in compiling.
-        if (++this.steadyFrames > 3) this.frameTime = this.steadyFrames < 8 ? interval : 0.9 * this.frameTime + 0.1 * interval;
+        if (isTimed && ++this.steadyFrames > 3) this.frameTime = this.steadyFrames < 8 ? interval : 0.9 * this.frameTime + 0.1 * interval;
         if (state.width === 0 && this.steadyFrames === 8 && this.automaticWidth === firstWidth) this.chooseWidth();
-        if (now - this.lastErrors > errorInterval && renderer.frameCount("reference") > 0) {
+        if (isTimed && now - this.lastErrors > errorInterval && renderer.frameCount("reference") > 0) {
             this.lastErrors = now;
-            void renderer.errors().then(errors => { this.errors = errors; });
+            void renderer.errors().then(errors => {
+                this.errors = errors;
+                this.isDirty = true;
+            });
         }
         this.numbers.show({
             size: `${renderer.width} × ${renderer.height}`, frameTime: this.steadyFrames > 3 ? this.frameTime : 0,

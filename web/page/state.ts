@@ -2,6 +2,7 @@
 
 import { heuristics, samplers, techniques } from "../library/techniques";
 import { Vector } from "../library/vectors";
+import { scenes } from "./scenes";
 
 /// How one of the two images is made.
 export interface Side {
@@ -49,7 +50,6 @@ export interface State {
     lamps: LampState[];
 }
 
-export const sceneNames = ["floor", "room"] as const;
 export const widths = [0, 160, 320, 480, 640, 960, 1280, 1920] as const;
 
 export const untouchedLamp: LampState = { move: [0, 0, 0], turn: 0, tilt: 0, brightness: 1 };
@@ -127,7 +127,7 @@ function lampOf(text: string): LampState {
 }
 
 const fields: Record<string, Field> = {
-    scene: choice(sceneNames, state => state.scene as typeof sceneNames[number], (state, value) => { state.scene = value; }),
+    scene: choice(names(scenes), state => state.scene, (state, value) => { state.scene = value; }),
     ...sideFields("left"),
     ...sideFields("right"),
     compare: flag(state => state.compares, (state, value) => { state.compares = value; }),
