@@ -19,7 +19,8 @@ def licence():
     """The version and the licence as comments, as at the beginning of flattened shaders."""
     version = re.search(r"project\(nusselt VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     lines = (ROOT / "LICENSE").read_text().strip().splitlines()
-    return f"// Nusselt {version}, put together by its live page.\n//\n" + "".join(f"// {line}".rstrip() + "\n" for line in lines)
+    text = "".join(f"// {line}".rstrip() + "\n" for line in lines)
+    return f"// Nusselt {version}, put together by its live page.\n//\n{text}"
 
 
 def sources():

@@ -1,6 +1,6 @@
 /// A hierarchy of boxes around triangles, in the layout of web/shaders/shadows.glsl.
 
-/// Leaves have fewer triangles; kLeafSize of the shader.
+/// Leaves have fewer triangles: 2^kCountBits of the shader.
 const leafSize = 8;
 
 export interface Hierarchy {
@@ -33,7 +33,8 @@ function area(box: Box): number {
 // Fetching a node and testing its box takes as long as testing 0.7 triangles.
 const costOfNode = 0.7;
 
-/// The cheapest division of triangles into two parts by the surface area heuristic, with all places along all axes tried.
+/// The cheapest division of triangles into two parts by the surface area heuristic, with all places along all axes
+/// tried.
 /// \returns null where a leaf is cheaper
 function split(items: number[], boxes: readonly Box[], whole: Box): [number[], number[]] | null {
     let best = items.length >= leafSize ? Infinity : items.length * area(whole);

@@ -1,5 +1,5 @@
-/// Reads scenes in the part of pbrt's format, version 4, that the scenes of the page use. Anything else is an error: the page
-/// has to show what the C++ renderer does.
+/// Reads scenes in the part of pbrt's format, version 4, that the scenes of the page use. Anything else is an error:
+/// the page has to show what the C++ renderer does.
 
 import { Vector, cross, normalize, subtract } from "./vectors";
 

@@ -23,8 +23,8 @@ function resolve(folder: string[], path: string): string {
     return parts.join("/");
 }
 
-/// The text with the files that it includes in place of its #include lines, each file once. Paths that begin with a dot are
-/// relative to the file that has them, others to the root of the sources.
+/// The text with the files that it includes in place of its #include lines, each file once. Paths that begin with a
+/// dot are relative to the file that has them, others to the root of the sources.
 function flatten(sources: Sources, path: string, text: string, seen: Set<string>): string {
     const folder = path.split("/").slice(0, -1);
     return text.replace(/^#include "(.+)"\n/gm, (_, name: string) => {

@@ -86,7 +86,7 @@ export function makeTexture(gl: Gl, format: TextureFormat, width: number, height
     return texture;
 }
 
-/// Texels per row of textures that hold arrays, kRowLength of the shaders.
+/// Texels per row of textures that hold arrays, 2^kRowBits of the shaders.
 export const rowLength = 1024;
 
 /// An array of texels with four floats. Its length grows to whole rows.

@@ -150,10 +150,16 @@ export function makeControls(actions: Actions): Controls {
     };
 }
 
+function timeText(milliseconds: number): string {
+    if (milliseconds <= 0) return "–";
+    return `${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms, ${(1000 / milliseconds).toFixed(1)} per second`;
+}
+
 /// What is measured while images add up.
 export interface Numbers {
     readonly size: string;
-    /// [ms]
+    readonly isCompiling: boolean;
+    /// 0 where unknown [ms].
     readonly frameTime: number;
     readonly leftSamples: number;
     readonly referenceSamples: number;
@@ -177,8 +183,7 @@ export function makeNumbers(): { readonly node: HTMLElement; show(numbers: Numbe
         node: element("dl", { class: "facts numbers-now" }, ...[size, time, samples, reference, left, right].map(f => f.node)),
         show(numbers) {
             size.value.textContent = numbers.size;
-            time.value.textContent = numbers.frameTime > 0
-                ? `${numbers.frameTime.toFixed(numbers.frameTime < 10 ? 1 : 0)} ms, ${(1000 / numbers.frameTime).toFixed(1)} per second` : "–";
+            time.value.textContent = numbers.isCompiling ? "compiling …" : timeText(numbers.frameTime);
             samples.value.textContent = String(numbers.leftSamples);
             reference.value.textContent = String(numbers.referenceSamples);
             left.value.textContent = error(numbers.errors?.left);

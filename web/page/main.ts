@@ -90,7 +90,8 @@ class Page {
         requestAnimationFrame(loop);
     }
 
-    /// Resolves to the mean of an image, for tests: red, green, blue and the number of frames, row by row from the bottom.
+    /// Resolves to the mean of an image, for tests: red, green, blue and the number of frames, row by row from the
+    /// bottom.
     async image(name: ImageName): Promise<number[]> {
         const sums = await this.renderer.read(name);
         return Array.from(sums, (sum, i) => i % 4 === 3 ? sum : sum / sums[i - i % 4 + 3]);
@@ -183,7 +184,8 @@ class Page {
 
     private addsUp(name: ImageName): boolean { return this.state.accumulates || name === "reference"; }
 
-    /// A program that has never drawn may be compiled only then: one in each frame, so that what is ready is seen before.
+    /// A program that has never drawn may be compiled only then: one in each frame, so that what is ready is seen
+    /// before.
     private add(images: readonly [ImageName, ImageSettings][]): void {
         const { state, renderer } = this;
         for (const [name, settings] of images) {
@@ -215,6 +217,7 @@ class Page {
             renderer.display({ wipe, exposure: state.exposure, showsError: state.shows === "error" && renderer.frameCount("reference") > 0 });
             this.isDirty = false;
         }
+        if (this.isCompiling) this.showNumbers();
         ++this.framesInFlight;
         void renderer.completion().then(() => this.finishFrame(images.length > 0));
     }
@@ -238,10 +241,16 @@ class Page {
                 this.isDirty = true;
             });
         }
+        this.showNumbers();
+    }
+
+    private showNumbers(): void {
+        const { state, renderer } = this;
         this.numbers.show({
-            size: `${renderer.width} × ${renderer.height}`, frameTime: this.steadyFrames > 3 ? this.frameTime : 0,
-            leftSamples: state.samples * renderer.frameCount("left"), referenceSamples: renderer.frameCount("reference"),
-            errors: state.reference ? this.errors : null, compares: state.compares,
+            size: `${renderer.width} × ${renderer.height}`, isCompiling: this.isCompiling,
+            frameTime: this.steadyFrames > 3 ? this.frameTime : 0, leftSamples: state.samples * renderer.frameCount("left"),
+            referenceSamples: renderer.frameCount("reference"), errors: state.reference ? this.errors : null,
+            compares: state.compares,
         });
     }
 

@@ -1,7 +1,7 @@
 #ifndef PAGE_LIGHTS_GLSL
 #define PAGE_LIGHTS_GLSL
-/// Lights as a shading point sees them. Each kind has the same functions: local_kind(), is_lit(), kind_emission(), and arrays
-/// kind_numbers, which number all lights of the scene.
+/// Lights as a shading point sees them. Each kind has the same functions: local_kind(), is_lit(), kind_emission(),
+/// and arrays kind_numbers, which number all lights of the scene.
 
 #include "nusselt/geometry/convex_polygon.glsl"
 #include "nusselt/geometry/cylinder.glsl"

@@ -1,6 +1,6 @@
-/// Lights of one kind by one sample for each component of the BRDF, combined by a heuristic of multiple importance sampling.
-/// The clamped cosine is a lobe, too: both samples are of linearly transformed cosines, by the same code, which halves the time
-/// to compile. The first one is the projected solid angle.
+/// Lights of one kind by one sample for each component of the BRDF, combined by a heuristic of multiple importance
+/// sampling. The clamped cosine is a lobe, too: both samples are of linearly transformed cosines, by the same code,
+/// which halves the time to compile. The first one is the projected solid angle.
 
 #include "@lobe_file@"
 #include "pair_settings.glsl"

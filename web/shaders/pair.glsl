@@ -1,5 +1,5 @@
-/// Lights of one kind by two techniques, one for each component of the BRDF, combined by a heuristic of multiple importance
-/// sampling.
+/// Lights of one kind by two techniques, one for each component of the BRDF, combined by a heuristic of multiple
+/// importance sampling.
 
 #include "@file@"
 #include "@lobe_file@"

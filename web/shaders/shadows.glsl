@@ -4,13 +4,13 @@
 
 #include "surface.glsl"
 
-/// Two texels for each node, in depth-first order: the lower corner and the node that follows when a ray misses the box; the
-/// upper corner and, for leaves, kLeafSize times the first triangle plus their number, for others -1.
+/// Two texels for each node, in depth-first order: the lower corner and the node that follows when a ray misses the
+/// box; the upper corner and, for leaves, the first triangle times 2^kCountBits plus their number, for others -1.
 uniform highp sampler2D nodes;
 uniform int node_count;
 uniform bool has_shadows;
 
-const int kLeafSize = 8;
+const int kCountBits = 3;
 /// Occluders count up to this fraction of the distance to the light.
 const float kShadowEnd = 0.9999;
 /// More than the rounding errors of the box test.
@@ -50,8 +50,9 @@ bool is_occluded(vec3 origin, vec3 direction) {
         float leave = min(min(high.x, high.y), min(high.z, kShadowEnd));
         if (enter <= leave * kBoxSlack) {
             int leaf = int(upper.w);
-            int end = leaf < 0 ? 0 : leaf / kLeafSize + leaf % kLeafSize;
-            for (int i = leaf / kLeafSize; i < end && !hits; ++i) hits = hits_triangle(origin, direction, i);
+            int first = leaf >> kCountBits;
+            int end = leaf < 0 ? first : first + (leaf & ((1 << kCountBits) - 1));
+            for (int i = first; i < end && !hits; ++i) hits = hits_triangle(origin, direction, i);
             ++node;
         } else {
             node = int(lower.w);

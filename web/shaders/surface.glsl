@@ -8,8 +8,8 @@
 uniform highp isampler2D visible_numbers;
 uniform float scene_radius; ///< of a sphere around the scene [m]
 
-// The ray through a place on the film, which is measured in pixels from the upper left corner: eye + t (ray_corner + x ray_right
-// + y ray_down).
+// The ray through a place on the film, which is measured in pixels from the upper left corner: eye + t (ray_corner +
+// x ray_right + y ray_down).
 uniform vec3 eye;
 uniform vec3 ray_corner, ray_right, ray_down;
 uniform vec2 place_in_pixel; ///< where rays pass all pixels, in [0, 1)^2
