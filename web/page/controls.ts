@@ -34,10 +34,7 @@ export function fitHeuristic(side: Side): void {
 }
 
 function sideControls(key: "left" | "right", title: string, actions: Actions): { node: HTMLElement; show(state: State): void } {
-    const edit = (change: (side: Side) => void) => actions.change(state => {
-        change(state[key]);
-        fitHeuristic(state[key]);
-    });
+    const edit = (change: (side: Side) => void) => actions.change(state => change(state[key]));
     let current: Side | null = null;
     const technique = select("Technique", key, optionsOf(techniques), value => edit(side => { side.technique = value; }));
     const heuristic = select("Heuristic", `${key}-heuristic`, optionsOf(heuristics), value => edit(side => { side.heuristic = value; }));
@@ -95,6 +92,7 @@ export function makeControls(actions: Actions): Controls {
     const samples = slider("Samples per pixel and frame", "samples", { min: 0, max: 4, step: 1 }, value => String(2 ** value),
         value => change(state => { state.samples = 2 ** value; }));
     const accumulates = checkbox("Add up frames", "accumulate", value => change(state => { state.accumulates = value; }));
+    const smooths = checkbox("Smooth edges", "smooth", value => change(state => { state.smoothsEdges = value; }));
     const shadows = checkbox("Shadows", "shadows", value => change(state => { state.shadows = value; }));
     const reference = checkbox("Reference", "reference", value => change(state => {
         state.reference = value;
@@ -122,7 +120,7 @@ export function makeControls(actions: Actions): Controls {
     let lamps: Control<LampState>[] = [];
     const node = element("section", { class: "panel", "aria-label": "Controls" },
         element("div", { class: "sides" }, left.node, right.node),
-        element("div", { class: "row" }, compares.node, accumulates.node, shadows.node, reference.node, shows.node),
+        element("div", { class: "row" }, compares.node, accumulates.node, smooths.node, shadows.node, reference.node, shows.node),
         element("div", { class: "row" }, samples.node, roughness.node, exposure.node),
         lampFields,
         element("div", { class: "row" }, scene.node, size.node, reset, link, message));
@@ -138,6 +136,7 @@ export function makeControls(actions: Actions): Controls {
             compares.show(state.compares);
             samples.show(Math.log2(state.samples));
             accumulates.show(state.accumulates);
+            smooths.show(state.smoothsEdges);
             shadows.show(state.shadows);
             reference.show(state.reference);
             shows.show(state.shows === "error");
@@ -162,6 +161,7 @@ export interface Numbers {
     /// 0 where unknown [ms].
     readonly frameTime: number;
     readonly leftSamples: number;
+    readonly rightSamples: number;
     readonly referenceSamples: number;
     readonly errors: Errors | null;
     readonly compares: boolean;
@@ -184,10 +184,11 @@ export function makeNumbers(): { readonly node: HTMLElement; show(numbers: Numbe
         show(numbers) {
             size.value.textContent = numbers.size;
             time.value.textContent = numbers.isCompiling ? "compiling …" : timeText(numbers.frameTime);
-            samples.value.textContent = String(numbers.leftSamples);
+            const { leftSamples, rightSamples, compares } = numbers;
+            samples.value.textContent = compares && leftSamples !== rightSamples ? `${leftSamples}, ${rightSamples}` : String(leftSamples);
             reference.value.textContent = String(numbers.referenceSamples);
             left.value.textContent = error(numbers.errors?.left);
-            right.value.textContent = numbers.compares ? error(numbers.errors?.right) : "–";
+            right.value.textContent = compares ? error(numbers.errors?.right) : "–";
         },
     };
 }

@@ -2,7 +2,7 @@
 
 import { Scene, View, readScene } from "../library/pbrt";
 import { techniqueOf } from "../library/techniques";
-import { makeControls, makeNumbers } from "./controls";
+import { fitHeuristic, makeControls, makeNumbers } from "./controls";
 import { element } from "./dom";
 import { Lamp, changedScene, floorOf, lampsOf } from "./lamps";
 import { Errors, ImageName, ImageSettings, Renderer } from "./renderer";
@@ -59,6 +59,7 @@ class Page {
 
     constructor(private readonly data: Data) {
         this.state = stateOf(location.hash);
+        this.fitHeuristics();
         this.files = new Map(Object.entries(data.scenes));
         this.scene = this.readScene();
         this.lamps = lampsOf(this.scene);
@@ -112,8 +113,12 @@ class Page {
     }
 
     private change(edit: (state: State) => void): void {
-        const before = structuredClone(this.state);
-        edit(this.state);
+        const before = this.state;
+        const edited = stateOf(linkOf(before));
+        edit(edited);
+        // Rounded as in links, so that these lead to the same image.
+        this.state = stateOf(linkOf(edited));
+        this.fitHeuristics();
         this.lastChange = performance.now();
         if (before.scene !== this.state.scene) {
             this.scene = this.readScene();
@@ -121,6 +126,11 @@ class Page {
             this.showLamps();
         }
         this.update(before);
+    }
+
+    private fitHeuristics(): void {
+        fitHeuristic(this.state.left);
+        fitHeuristic(this.state.right);
     }
 
     private showLamps(): void {
@@ -137,7 +147,7 @@ class Page {
             renderer.setScene(changedScene(this.scene, this.lamps, state.lamps, state.roughness));
         if (changed("scene", "camera")) renderer.setView(this.view());
         this.resize();
-        if (changed("scene", "lamps", "roughness", "camera", "shadows", "accumulates", "mostFrames")) this.clear();
+        if (changed("scene", "lamps", "roughness", "camera", "shadows", "accumulates", "smoothsEdges", "mostFrames")) this.clear();
         for (const name of ["left", "right"] as const) if (changed(name, "samples")) renderer.clear([name]);
         if (changed("compares")) renderer.clear(["right"]);
         this.stage.show(state, [techniqueOf(state.left.technique).label, techniqueOf(state.right.technique).label]);
@@ -206,8 +216,8 @@ class Page {
         const { state, renderer } = this;
         const images = this.wanted();
         if (images.length === 0 && !this.isDirty) return;
-        // Without adding up, pixel centres: noise alone is seen, no changing edges.
-        renderer.look(state.accumulates ? [halton(this.frame + 1, 2), halton(this.frame + 1, 3)] : [0.5, 0.5]);
+        // Without adding up, edges would tremble.
+        renderer.look(state.accumulates && state.smoothsEdges ? [halton(this.frame + 1, 2), halton(this.frame + 1, 3)] : [0.5, 0.5]);
         this.add(images);
         if (images.length > 0) ++this.frame;
         if (this.isDirty) {
@@ -248,7 +258,7 @@ class Page {
         const { state, renderer } = this;
         this.numbers.show({
             size: `${renderer.width} × ${renderer.height}`, isCompiling: this.isCompiling,
-            frameTime: this.steadyFrames > 3 ? this.frameTime : 0, leftSamples: state.samples * renderer.frameCount("left"),
+            frameTime: this.steadyFrames > 3 ? this.frameTime : 0, leftSamples: state.samples * renderer.frameCount("left"), rightSamples: state.samples * renderer.frameCount("right"),
             referenceSamples: renderer.frameCount("reference"), errors: state.reference ? this.errors : null,
             compares: state.compares,
         });

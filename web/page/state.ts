@@ -33,6 +33,8 @@ export interface State {
     samples: number;
     /// Whether frames add up, else each one shows its noise.
     accumulates: boolean;
+    /// Whether rays pass pixels in other places in each frame that adds up, else through their centres.
+    smoothsEdges: boolean;
     /// How many add up at most. Images are then functions of the state; only links change it.
     mostFrames: number;
     shadows: boolean;
@@ -59,12 +61,12 @@ export function initialState(): State {
         scene: "floor",
         left: { technique: "area", heuristic: "clamped_optimal", sampler: "sobol" },
         right: { technique: "projected", heuristic: "clamped_optimal", sampler: "sobol" },
-        compares: true, wipe: 0.5, samples: 1, accumulates: true, mostFrames: 4096, shadows: true, reference: true, shows: "image",
+        compares: true, wipe: 0.5, samples: 1, accumulates: true, smoothsEdges: true, mostFrames: 4096, shadows: true, reference: true, shows: "image",
         roughness: null, exposure: 0, width: 0, camera: null, lamps: [],
     };
 }
 
-const shortNumber = (x: number): string => String(Number(x.toFixed(3)));
+const shortNumber = (x: number): string => String(Number(x.toFixed(4)));
 const numbersOf = (text: string): number[] => text.split(",").map(Number);
 const isVector = (v: number[]): boolean => v.length === 3 && v.every(Number.isFinite);
 
@@ -134,6 +136,7 @@ const fields: Record<string, Field> = {
     wipe: number(0, 1, state => state.wipe, (state, value) => { state.wipe = value; }),
     samples: number(1, 16, state => state.samples, (state, value) => { state.samples = Math.round(value); }),
     accumulate: flag(state => state.accumulates, (state, value) => { state.accumulates = value; }),
+    smooth: flag(state => state.smoothsEdges, (state, value) => { state.smoothsEdges = value; }),
     frames: number(1, 65536, state => state.mostFrames, (state, value) => { state.mostFrames = Math.round(value); }),
     shadows: flag(state => state.shadows, (state, value) => { state.shadows = value; }),
     reference: flag(state => state.reference, (state, value) => { state.reference = value; }),
