@@ -30,6 +30,7 @@ const slow = { frameTime: 400, width: 320 };
 /// The reference waits for so many frames, since its program takes time to compile.
 const framesBeforeReference = 8;
 const errorInterval = 500; ///< [ms]
+const storeDelay = 300; ///< after the last change [ms]
 
 class Page {
     private state: State;
@@ -56,6 +57,7 @@ class Page {
     private errors: Errors | null = null;
     private lastErrors = 0;
     private isDirty = true;
+    private storing = 0;
 
     constructor(private readonly data: Data) {
         this.state = stateOf(location.hash);
@@ -69,7 +71,7 @@ class Page {
             change,
             chooseScene: name => this.change(state => Object.assign(state, { scene: name, camera: null, lamps: [], roughness: null })),
             shaderText: side => this.shaderText(side),
-            link: () => location.href.replace(/#.*/, "") + this.hash(),
+            link: () => this.link(),
         });
         document.getElementById("page")?.append(this.stage.node, this.numbers.node, this.controls.node, help());
         const gl = this.stage.canvas.getContext("webgl2", { antialias: false, depth: false, powerPreference: "high-performance" });
@@ -107,9 +109,10 @@ class Page {
 
     private view(): View { return { ...this.scene.view, ...this.state.camera }; }
 
-    private hash(): string {
+    /// Leads to what is shown.
+    link(): string {
         const link = linkOf(this.state);
-        return link === "" ? "" : `#${link}`;
+        return location.href.replace(/#.*/, "") + (link === "" ? "" : `#${link}`);
     }
 
     private change(edit: (state: State) => void): void {
@@ -155,9 +158,16 @@ class Page {
         this.isDirty = true;
         this.steadyFrames = 0;
         this.errors = null;
-        const hash = this.hash();
-        // Nothing but the fragment changes, which browsers allow for files, too.
-        if (before !== null && hash !== location.hash) history.replaceState(null, "", hash || location.pathname + location.search);
+        if (before !== null) this.storeSoon();
+    }
+
+    /// Puts the state into the address. Browsers count how often pages do that.
+    private storeSoon(): void {
+        clearTimeout(this.storing);
+        this.storing = setTimeout(() => {
+            const link = this.link();
+            if (link !== location.href) history.replaceState(null, "", link);
+        }, storeDelay);
     }
 
     private clear(): void {
