@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit wasm site single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit page wasm site single-header shaders clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -32,10 +32,14 @@ gpu-kit: ## an archive that checks and measures the GPU of any machine: out/nuss
 	scripts/build.sh kit_programs
 	scripts/pack.sh gpu-kit
 
-site: ## the documentation, the gallery and the report as pages for browsers: out/site
+site: page ## the documentation, the gallery, the live page and the report as pages for browsers: out/site
 	scripts/setup.sh site
 	scripts/build.sh apps/nusselt/all nusselt_lab_app
 	site/make.sh
+page: ## the live page in one file: out/page/index.html (docs/page.md)
+	scripts/setup.sh page
+	web/build.py out/page/index.html
+
 wasm: ## the library for JavaScript as an npm package: out/wasm (docs/wasm.md)
 	scripts/setup.sh wasm
 	scripts/build.sh nusselt_wasm

@@ -9,9 +9,9 @@ cd "${2:-$(dirname "$0")/..}"
 
 sources() { find include src proof lab apps wasm tests examples \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
 code() {
-    find CMakeLists.txt Makefile include src proof lab apps wasm tests examples shaders scripts cmake -type f \( -name '*.h' \
+    find CMakeLists.txt Makefile include src proof lab apps web wasm site tests examples shaders scripts cmake -type f \( -name '*.h' \
         -o -name '*.cpp' -o -name '*.cu' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' -o -name '*.in' \
-        -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' -o -name CMakeLists.txt -o -name Makefile \) -print0
+        -o -name '*.py' -o -name '*.ts' -o -name '*.sh' -o -name '*.cmake' -o -name CMakeLists.txt -o -name Makefile \) -print0
 }
 all_files() { find . \( -path ./build -o -path ./out -o -path ./.git \) -prune -o -type f -print0; }
 

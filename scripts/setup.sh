@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh check|build|site|wasm|test
+# Usage: scripts/setup.sh check|build|page|site|wasm|test
 #   check  packages for the library and its tests
 #   build  also packages for the programs
-#   site   also packages for the site of the documentation
-#   wasm   also packages for the library in WebAssembly
+#   page   packages for the live page
+#   site   packages for the programs, the live page and the site of the documentation
+#   wasm   packages for the programs and for the library in WebAssembly
 #   test   also packages for all tests
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -17,10 +18,11 @@ fail() {
 case "${1:-}" in
     check) wanted='check' ;;
     build) wanted='check|build' ;;
-    site) wanted='check|build|site' ;;
-    wasm) wanted='check|build|wasm' ;;
-    test) wanted='check|build|site|wasm|test' ;;
-    *) fail "usage: scripts/setup.sh check|build|site|wasm|test" ;;
+    page) wanted='page' ;;
+    site) wanted='check|build|page|site' ;;
+    wasm) wanted='check|build|page|wasm' ;;
+    test) wanted='check|build|page|site|wasm|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|page|site|wasm|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown

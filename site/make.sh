@@ -9,5 +9,5 @@ for scene in $(<site/gallery.txt); do
         build/release/apps/nusselt/nusselt render "scenes/$scene.pbrt" --resolution 960x540 --spp 16 --quiet -o "out/gallery/$scene.png"
 done
 build/release/apps/nusselt-lab/nusselt-lab reproduce --quick -o out/report
-python3 site/build.py out/site --pictures out/gallery --report out/report
+python3 site/build.py out/site --pictures out/gallery --report out/report --live out/page
 echo "The site: out/site/index.html"

@@ -121,7 +121,7 @@ if (json) {
     const columns = names.map(name => name.endsWith("_ns") ? { name, unit: "ns" } : { name });
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     writeFileSync(json, JSON.stringify({
-        bench: "wasm", command: `scripts/time-wasm.sh ${repetitions} ${json}`, version,
+        bench: "wasm", command: `lab/wasm/time.sh ${repetitions} ${json}`, version,
         machine: { processor: cpus()[0].model, threads: cpus().length },
         settings: { repetitions: Number(repetitions), node: process.version },
         tables: [{ name: "samples", columns, rows: table }],

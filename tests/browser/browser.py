@@ -55,18 +55,20 @@ image.src = "data:image/png;base64," + data;
 # WebGL on the processor.
 WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
+# Nobody watches: no need to wait for frames. Not for pages that always draw: they would draw screens and nothing else.
+UNPACED = ("--disable-frame-rate-limit", "--disable-gpu-vsync")
+
 
 class Browser:
     """One for all screens: to start it takes seconds."""
 
-    def __init__(self, graphics=("--disable-gpu",)):
+    def __init__(self, graphics=("--disable-gpu",), pacing=UNPACED):
         chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
         if not chromium or not driver:
             unavailable("chromium or chromium-driver is missing")
         options = webdriver.ChromeOptions()
         options.binary_location = chromium
-        for argument in ("--headless=new", *graphics, "--disable-dev-shm-usage", "--force-color-profile=srgb",
-                         "--disable-frame-rate-limit", "--disable-gpu-vsync"):  # nobody watches: no need to wait for frames
+        for argument in ("--headless=new", *graphics, *pacing, "--disable-dev-shm-usage", "--force-color-profile=srgb"):
             options.add_argument(argument)
         if os.geteuid() == 0:  # where the sandbox does not start
             options.add_argument("--no-sandbox")

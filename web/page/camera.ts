@@ -1,0 +1,82 @@
+/// The camera as rays and as a matrix.
+
+import { View } from "../library/pbrt";
+import { Vector, add, cross, dot, length, normalize, rotate, subtract, times } from "../library/vectors";
+
+export interface Camera {
+    readonly eye: Vector;
+    /// Unit vectors.
+    readonly forward: Vector;
+    readonly right: Vector;
+    readonly up: Vector;
+    /// Tangents of half the field of view.
+    readonly tangentX: number;
+    readonly tangentY: number;
+}
+
+/// \param aspect width over height, at least 1
+export function cameraOf(view: View, aspect: number): Camera {
+    const forward = normalize(subtract(view.target, view.eye));
+    const right = normalize(cross(forward, view.up));
+    const tangentY = Math.tan(view.fov * Math.PI / 360);
+    return { eye: view.eye, forward, right, up: cross(right, forward), tangentX: aspect * tangentY, tangentY };
+}
+
+/// The ray through pixel coordinates (x, y) from the upper left corner is corner + x right + y down.
+export function raysOf(camera: Camera, width: number, height: number): { corner: Vector; right: Vector; down: Vector } {
+    const left = times(-camera.tangentX, camera.right);
+    const top = times(camera.tangentY, camera.up);
+    return {
+        corner: add(camera.forward, add(left, top)),
+        right: times(2 * camera.tangentX / width, camera.right),
+        down: times(-2 * camera.tangentY / height, camera.up),
+    };
+}
+
+const near = 0.02;
+const far = 200;
+
+/// clip_from_world, column by column.
+/// \param offset of the image, in pixels to the left and upwards
+export function matrixOf(camera: Camera, width: number, height: number, offset: readonly [number, number]): Float32Array {
+    const x = times(1 / camera.tangentX, camera.right);
+    const y = times(1 / camera.tangentY, camera.up);
+    const f = camera.forward;
+    const shifted = (v: Vector, shift: number): Vector => add(v, times(shift, f));
+    const rows = [shifted(x, -2 * offset[0] / width), shifted(y, 2 * offset[1] / height),
+        times((far + near) / (far - near), f), f];
+    const constants = rows.map(row => -dot(row, camera.eye));
+    constants[2] -= 2 * far * near / (far - near);
+    return Float32Array.from([0, 1, 2, 3].flatMap(k => rows.map((row, i) => k < 3 ? row[k] : constants[i])));
+}
+
+/// Where a point appears, from 0 to 1 from the left and from the top; null behind the camera.
+export function project(camera: Camera, p: Vector): readonly [number, number] | null {
+    const v = subtract(p, camera.eye);
+    const depth = dot(v, camera.forward);
+    if (depth <= near) return null;
+    return [0.5 + 0.5 * dot(v, camera.right) / (depth * camera.tangentX), 0.5 - 0.5 * dot(v, camera.up) / (depth * camera.tangentY)];
+}
+
+const steepest = 0.98;
+
+/// Turns the eye around the target, by angles to the right and upwards [rad]. The view never becomes vertical.
+export function orbit(view: View, right: number, up: number): View {
+    let offset = rotate(subtract(view.eye, view.target), view.up, right);
+    const tilted = rotate(offset, normalize(cross(view.up, offset)), -up);
+    if (Math.abs(dot(normalize(tilted), view.up)) < steepest) offset = tilted;
+    return { ...view, eye: add(view.target, offset) };
+}
+
+/// Moves the eye towards the target by a factor of the distance.
+export function zoom(view: View, factor: number): View {
+    const offset = subtract(view.eye, view.target);
+    const distance = Math.min(Math.max(length(offset) / factor, 0.3), 50);
+    return { ...view, eye: add(view.target, times(distance, normalize(offset))) };
+}
+
+/// Moves both along the image [m].
+export function pan(view: View, camera: Camera, right: number, up: number): View {
+    const step = add(times(right, camera.right), times(up, camera.up));
+    return { ...view, eye: add(view.eye, step), target: add(view.target, step) };
+}
