@@ -36,6 +36,7 @@ site: page ## the documentation, the gallery, the live page and the report as pa
 	scripts/setup.sh site
 	scripts/build.sh apps/nusselt/all nusselt_lab_app
 	site/make.sh
+
 page: ## the live page in one file: out/page/index.html (docs/page.md)
 	scripts/setup.sh page
 	web/build.py out/page/index.html
