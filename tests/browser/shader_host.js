@@ -95,9 +95,11 @@ const answers = {
     // Computes with the inputs of some calls.
     run({ shader, calls }, inputs) {
         const { program, words } = shaders[shader];
+        // The last row may have more pixels than calls.
         const rows = Math.ceil(calls / kResultsInRow);
         bindTarget(rows); // first, because it may bind textures, too
         gl.useProgram(program);
+        gl.uniform1ui(gl.getUniformLocation(program, "count"), calls);
         const texture = textureOf(inputs);
         for (const [unit, [name, of]] of [["inputs", texture], ["words", words]].entries()) {
             gl.activeTexture(gl.TEXTURE0 + unit);

@@ -402,10 +402,11 @@ std::vector<Verdict> judge_textured_lines(const ShaderPlatform& platform, Textur
 
 void add_textured_line_cases(std::vector<ParityCase>& cases) {
     const auto add = [&]<class Pair>(Pair) {
-        cases.push_back(emission_case(Pair::kName, 2, [](const auto& platform, const auto& shaders, int count) {
-            return judge_pair<Pair>(platform, shaders,
-                                    count / 2); // four techniques, with as many lights as two
-        }));
+        cases.push_back(
+            emission_case(Pair::kName, 2, [](const auto& platform, const auto& shaders, int count) {
+                return judge_pair<Pair>(platform, shaders,
+                                        count / 2); // four techniques, with as many lights as two
+            }));
     };
     add(Line{});
     add(LineOnLobe{});
