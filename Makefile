@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit page wasm site single-header shaders clean help
+.PHONY: build demo lab check test test-full archive gpu-kit page wasm site single-header shaders hlsl-msl clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -51,6 +51,9 @@ single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 
 shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
 	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
+
+hlsl-msl: build ## the same in HLSL and Metal Shading Language: out/hlsl, out/msl (needs spirv-cross)
+	cmake -D LIST=build/release/tests/parity/shaders.txt -D OUTPUT=out -P scripts/convert-shaders.cmake
 
 clean: ## removes build/ and out/
 	rm -rf build out

@@ -22,7 +22,8 @@ endif()
 # another environment of glslang and makes `#include "shaders/<name>.h"` available to the sources of the target. The header
 # has the array k<Name>, with name in PascalCase: the words of the SPIR-V. They are not compressed: xz finds what variants of
 # a shader share, which makes archives smaller. A relative source is one of the current source directory; shaders include
-# others relative to shaders/.
+# others relative to shaders/. The property NUSSELT_SHADERS of the target lists its shaders: lines with the name, the source and
+# the definitions, with tabs between them.
 function(nusselt_add_shader target name source)
     cmake_parse_arguments(arg "" "ENVIRONMENT" "DEFINES" ${ARGN})
     if(NOT arg_ENVIRONMENT)
@@ -34,6 +35,8 @@ function(nusselt_add_shader target name source)
     set(spirv ${folder}/${name}.spv)
     set(header ${folder}/${name}.h)
     set(symbol ${target}_shader_${name})
+    list(JOIN arg_DEFINES "\t" defines)
+    set_property(TARGET ${target} APPEND_STRING PROPERTY NUSSELT_SHADERS "${name}\t${source}\t${defines}\n")
     list(TRANSFORM arg_DEFINES PREPEND -D)
     file(MAKE_DIRECTORY ${folder})
     # ninja expects that the depfile names the first output; otherwise it compiles the shader in each build.

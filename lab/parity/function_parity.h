@@ -2,7 +2,7 @@
 /// Compares the functions below the techniques on the device, in C++ with float and in C++ with long double.
 
 #include "lab/parity/parity.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 #include "proof/hostile/lights.h"
 
 #include <fmt/core.h>
@@ -114,14 +114,14 @@ inline constexpr double kClearDifference = 1e-3;
 /// \param tail excludes the largest error where it depends on chance, because samples may fall on either side of an
 /// edge.
 template <class Group>
-Verdict judge_group(const gpu::Device& device, const VariantShader& shader, std::size_t calls,
+Verdict judge_group(const ShaderPlatform& platform, const VariantShader& shader, std::size_t calls,
                     std::span<const std::uint32_t> table = {}, Tail tail = Tail::largest) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
         RandomSource random(1, i);
         Group::draw(random, inputs);
     }
-    const auto results = ShaderRunner(device, shader, Group::kInputs, table).run(inputs);
+    const auto results = platform.load(shader, Group::kInputs, table)->run(inputs);
     constexpr std::size_t kCount = std::size(Group::kOutputs);
     std::array<std::vector<double>, kCount> of_device, of_cpp, floor;
     for (std::size_t k = 0; k < kCount; ++k)
@@ -161,7 +161,7 @@ Verdict judge_group(const gpu::Device& device, const VariantShader& shader, std:
 /// What a group needs besides its inputs.
 struct GroupSettings {
     std::size_t calls_divisor = 1; ///< fewer calls than for other functions, where they take longer
-    /// Makes the contents of the shader's third buffer, if it has one.
+    /// Makes the words of the shader's table, if it has one.
     std::vector<std::uint32_t> (*table)() = nullptr;
     Tail tail = Tail::largest;
 };
@@ -169,13 +169,13 @@ struct GroupSettings {
 /// The case of a group.
 template <class Group>
 ParityCase group_case(const GroupSettings& settings = {}) {
-    const auto judge = [settings](const gpu::Device& device, const ParityEffort& effort) {
+    const auto judge = [settings](const ShaderPlatform& platform, const ParityEffort& effort) {
         const std::size_t calls = effort.function_calls() / settings.calls_divisor;
         const auto table = settings.table ? settings.table() : std::vector<std::uint32_t>();
         std::vector<VariantVerdict> verdicts;
-        for (const Variant variant : variants_for(device)) {
+        for (const Variant variant : platform.variants()) {
             const VariantShader shader(Group::kShader, variant);
-            verdicts.push_back({variant, judge_group<Group>(device, shader, calls, table, settings.tail)});
+            verdicts.push_back({variant, judge_group<Group>(platform, shader, calls, table, settings.tail)});
         }
         return verdicts;
     };

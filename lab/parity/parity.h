@@ -2,7 +2,6 @@
 /// Compares the techniques in GLSL, and the functions below them, with those in C++: on a device, errors may be at most
 /// three times those of C++ in float. docs/testing.md#parity-with-the-gpu explains what is compared.
 
-#include "gpu/device.h"
 #include "lab/parity/parity_check.h"
 #include "lab/parity/twin_shader.h"
 
@@ -36,8 +35,8 @@ struct VariantVerdict {
 struct ParityCase {
     std::string subject; ///< what is compared, such as "technique"
     std::string name;    ///< of the technique with its bound on the number of vertices, or of the functions
-    /// Judges all variants of the shaders that give the right results on a device.
-    std::function<std::vector<VariantVerdict>(const gpu::Device&, const ParityEffort&)> judge;
+    /// Judges all variants of the shaders that give the right results on a platform.
+    std::function<std::vector<VariantVerdict>(const ShaderPlatform&, const ParityEffort&)> judge;
 };
 
 /// All cases, in a fixed order.

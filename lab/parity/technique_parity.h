@@ -155,12 +155,12 @@ std::vector<Verdict> judge_class(const typename Pair::Traits::Class& lights, int
 /// Judges shaders of one technique on all classes for which `is_judged` holds, with about `count` lights in total.
 /// \return a verdict for each shader
 template <class Pair>
-std::vector<Verdict> judge_twins(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+std::vector<Verdict> judge_twins(const ShaderPlatform& platform, const std::vector<VariantShader>& shaders,
                                  int count,
                                  const std::function<bool(const typename Pair::Traits::Class&)>& is_judged) {
     using Class = typename Pair::Traits::Class;
     Twins<Pair> twins;
-    for (const auto& shader : shaders) twins.emplace_back(device, shader);
+    for (const auto& shader : shaders) twins.emplace_back(platform, shader);
     std::vector<const Class*> judged;
     for (const auto& lights : lab::classes_of(static_cast<const Class*>(nullptr)))
         if (is_judged(lights)) judged.push_back(&lights);
@@ -175,24 +175,24 @@ std::vector<Verdict> judge_twins(const gpu::Device& device, const std::vector<Va
 
 /// Judges shaders of one technique on the classes that match its bound: 4 or 8 vertices, or lines.
 template <class Pair>
-std::vector<Verdict> judge_twins(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+std::vector<Verdict> judge_twins(const ShaderPlatform& platform, const std::vector<VariantShader>& shaders,
                                  int count) {
-    return judge_twins<Pair>(device, shaders, count, [](const auto& lights) {
+    return judge_twins<Pair>(platform, shaders, count, [](const auto& lights) {
         return lab::fits_bound(lights, Pair::Traits::kVertexBound);
     });
 }
 
 /// Judges one shader of a technique likewise.
 template <class Pair>
-Verdict judge_twin(const gpu::Device& device, const VariantShader& shader, int count) {
-    return judge_twins<Pair>(device, {shader}, count).front();
+Verdict judge_twin(const ShaderPlatform& platform, const VariantShader& shader, int count) {
+    return judge_twins<Pair>(platform, {shader}, count).front();
 }
 
 /// The first of `count` hostile lights on which a twin breaks the contract; empty if there is none.
 template <class Pair>
-std::string first_violation(const gpu::Device& device, const VariantShader& shader, int count) {
+std::string first_violation(const ShaderPlatform& platform, const VariantShader& shader, int count) {
     using TwinOf = Twin<typename Pair::Traits>;
-    TwinOf twin(device, shader);
+    TwinOf twin(platform, shader);
     std::vector<typename TwinOf::Input> inputs(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         hostile::HostileLights<float> source(1, i);

@@ -1,7 +1,7 @@
 #pragma once
 /// Runs a technique in GLSL on many lights.
 
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 #include "proof/hostile/contract.h"
 
 #include <bit>
@@ -33,14 +33,14 @@ public:
         Random u;
     };
 
-    Twin(const gpu::Device& device, const VariantShader& shader)
-        : runner_(device, shader, sizeof(Input) / sizeof(float)) {}
+    Twin(const ShaderPlatform& platform, const VariantShader& shader)
+        : runner_(platform.load(shader, sizeof(Input) / sizeof(float))) {}
 
     std::vector<Outputs> run(const std::vector<Input>& inputs) {
         std::vector<float> values(inputs.size() * sizeof(Input) / sizeof(float));
         std::memcpy(values.data(), inputs.data(), inputs.size() * sizeof(Input));
         std::vector<Outputs> results;
-        for (const auto& written : runner_.run(values)) {
+        for (const auto& written : runner_->run(values)) {
             const auto o = std::bit_cast<DeviceOutputs>(written);
             results.push_back({{{o.wi[0], o.wi[1], o.wi[2]}, o.pdf, {o.p[0], o.p[1], o.p[2]}},
                                o.pdf_of_wi,
@@ -54,7 +54,7 @@ private:
     static float inverse(const float (&u)[2], float) { return u[0]; }
     static Vec2<float> inverse(const float (&u)[2], const Vec2<float>&) { return {u[0], u[1]}; }
 
-    ShaderRunner runner_;
+    std::unique_ptr<ShaderRunner> runner_;
 };
 
 } // namespace nusselt::parity

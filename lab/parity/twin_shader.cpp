@@ -1,6 +1,5 @@
 #include "lab/parity/twin_shader.h"
 
-#include "gpu/fused_fma.h"
 #include "shaders/twins.h"
 
 #include <stdexcept>
@@ -8,10 +7,9 @@
 
 namespace nusselt::parity {
 
-std::span<const std::uint32_t> find_twin(std::span<const TwinShader> shaders, std::string_view technique,
-                                         int vertex_bound) {
+Shader find_twin(std::span<const TwinShader> shaders, std::string_view technique, int vertex_bound) {
     for (const TwinShader& shader : shaders)
-        if (shader.technique == technique && shader.vertex_bound == vertex_bound) return shader.spirv;
+        if (shader.technique == technique && shader.vertex_bound == vertex_bound) return shader.shader;
     throw std::logic_error("no such twin of " + std::string(technique));
 }
 
@@ -19,11 +17,6 @@ VariantShader twin_shader(std::string_view technique, int vertex_bound, Variant 
     std::string name(technique);
     if (variant == Variant::rolled) name.insert(0, "Rolled");
     return {find_twin(kTwinShaders, name, vertex_bound), variant};
-}
-
-std::vector<Variant> variants_for(const gpu::Device& device) {
-    if (gpu::has_fused_fma(device)) return {Variant::split, Variant::fused};
-    return {Variant::split};
 }
 
 } // namespace nusselt::parity

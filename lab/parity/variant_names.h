@@ -9,8 +9,10 @@ enum class Variant {
     split,  ///< for any device
     fused,  ///< for devices whose fma rounds once
     rolled, ///< for any device, with loops that are not marked with [[unroll]]
+    webgl,  ///< in GLSL ES, for browsers
 };
-inline constexpr const char* kVariantNames[] = {"any device", "fused fma", "any device, rolled loops"};
+inline constexpr const char* kVariantNames[] = {"any device", "fused fma", "any device, rolled loops",
+                                                "WebGL 2"};
 inline const char* name_of(Variant variant) { return kVariantNames[static_cast<std::size_t>(variant)]; }
 
 } // namespace nusselt::parity

@@ -10,15 +10,15 @@ namespace {
 
 /// Adds what breaks the contract to the excesses.
 template <class Pair>
-void add_contract(const gpu::Device& device, const ParityEffort& effort, VariantVerdict& result) {
+void add_contract(const ShaderPlatform& platform, const ParityEffort& effort, VariantVerdict& result) {
     const auto shader = shader_of<Pair>(result.variant);
-    const std::string violation = first_violation<Pair>(device, shader, effort.hostile_lights() / 10);
+    const std::string violation = first_violation<Pair>(platform, shader, effort.hostile_lights() / 10);
     if (!violation.empty()) result.verdict.excesses.push_back(violation);
 }
 
 /// Judges lights that use all vertex slots, and lights that are clipped.
 template <class Pair>
-std::vector<VariantVerdict> judge_bound(const gpu::Device& device, const ParityEffort& effort) {
+std::vector<VariantVerdict> judge_bound(const ShaderPlatform& platform, const ParityEffort& effort) {
     constexpr int kBound = Pair::Traits::kVertexBound;
     const auto is_judged = [](const proof::PolygonClass& lights) {
         return lights.vertex_count == kBound ||
@@ -27,19 +27,19 @@ std::vector<VariantVerdict> judge_bound(const gpu::Device& device, const ParityE
     const auto& classes = proof::polygon_classes();
     const auto judged = std::count_if(classes.begin(), classes.end(), is_judged);
     const int count = effort.lights_per_class() * static_cast<int>(judged);
-    const std::vector<Variant> variants = variants_for(device);
-    const auto verdicts = judge_twins<Pair>(device, shaders_of<Pair>(variants), count, is_judged);
+    const std::vector<Variant> variants = platform.variants();
+    const auto verdicts = judge_twins<Pair>(platform, shaders_of<Pair>(variants), count, is_judged);
     std::vector<VariantVerdict> results;
     for (std::size_t k = 0; k < variants.size(); ++k)
-        add_contract<Pair>(device, effort, results.emplace_back(VariantVerdict{variants[k], verdicts[k]}));
+        add_contract<Pair>(platform, effort, results.emplace_back(VariantVerdict{variants[k], verdicts[k]}));
     return results;
 }
 
 template <class Pair>
-std::vector<VariantVerdict> judge_rolled(const gpu::Device& device, const ParityEffort& effort) {
+std::vector<VariantVerdict> judge_rolled(const ShaderPlatform& platform, const ParityEffort& effort) {
     const auto shader = shader_of<Pair>(Variant::rolled);
-    VariantVerdict result{Variant::rolled, judge_twin<Pair>(device, shader, effort.lights / 2)};
-    add_contract<Pair>(device, effort, result);
+    VariantVerdict result{Variant::rolled, judge_twin<Pair>(platform, shader, effort.lights / 2)};
+    add_contract<Pair>(platform, effort, result);
     return {result};
 }
 

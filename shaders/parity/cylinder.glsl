@@ -2,13 +2,11 @@
 #include "parity/cylinder_input.glsl"
 #include "parity/outputs.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kCylinderSize + 2u) * i;
-    const uint random = begin + kCylinderSize;
+void compute(uint i) {
+    uint begin = (kCylinderSize + 2u) * i;
+    uint random = begin + kCylinderSize;
 
     Technique technique = technique_prepare(input_cylinder(begin));
-    const LightSample s = technique_sample(technique, vec2(inputs[random], inputs[random + 1u]));
-    write_outputs(i, s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi), technique_measure(technique));
+    LightSample s = technique_sample(technique, vec2(input_at(random), input_at(random + 1u)));
+    write_outputs(s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi), technique_measure(technique));
 }

@@ -4,4 +4,4 @@
 const uint kCylinderSize = kLineSize + 1u;
 
 // A Cylinder<float> of C++.
-Cylinder input_cylinder(uint begin) { return Cylinder(input_line(begin), inputs[begin + kLineSize]); }
+Cylinder input_cylinder(uint begin) { return Cylinder(input_line(begin), input_at(begin + kLineSize)); }

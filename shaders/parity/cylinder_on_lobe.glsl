@@ -3,14 +3,12 @@
 #include "parity/lobe_input.glsl"
 #include "parity/outputs.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kCylinderSize + kLobeSize + 2u) * i;
-    const uint lobe = begin + kCylinderSize;
-    const uint random = lobe + kLobeSize;
+void compute(uint i) {
+    uint begin = (kCylinderSize + kLobeSize + 2u) * i;
+    uint lobe = begin + kCylinderSize;
+    uint random = lobe + kLobeSize;
 
     Technique technique = technique_prepare(input_cylinder(begin), input_lobe(lobe));
-    const LightSample s = technique_sample(technique, vec2(inputs[random], inputs[random + 1u]));
-    write_outputs(i, s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi), technique_measure(technique));
+    LightSample s = technique_sample(technique, vec2(input_at(random), input_at(random + 1u)));
+    write_outputs(s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi), technique_measure(technique));
 }

@@ -5,6 +5,6 @@ const uint kLobeSize = 6u;
 
 // An LtcCoefficients<float> of C++.
 Ltc input_lobe(uint begin) {
-    return ltc_prepare(LtcCoefficients(inputs[begin], inputs[begin + 1u], inputs[begin + 2u], inputs[begin + 3u],
-                                       inputs[begin + 4u], inputs[begin + 5u]));
+    return ltc_prepare(LtcCoefficients(input_at(begin), input_at(begin + 1u), input_at(begin + 2u), input_at(begin + 3u),
+                                       input_at(begin + 4u), input_at(begin + 5u)));
 }

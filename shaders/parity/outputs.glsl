@@ -2,14 +2,13 @@
 #include "parity/buffers.glsl"
 
 // The layout of nusselt::parity::DeviceOutputs.
-void write_outputs(uint i, LightSample s, float pdf, vec2 inverse, float measure) {
-    uint at = kOutputSize * i;
-    write_vec3(at, s.wi);
-    outputs[at + 3u] = s.pdf;
-    write_vec3(at + 4u, s.p);
-    outputs[at + 7u] = pdf;
-    outputs[at + 8u] = inverse.x;
-    outputs[at + 9u] = inverse.y;
-    outputs[at + 10u] = measure;
-    outputs[at + 11u] = 0.0;
+void write_outputs(LightSample s, float pdf, vec2 inverse, float measure) {
+    write_vec3(0, s.wi);
+    results[3] = s.pdf;
+    write_vec3(4, s.p);
+    results[7] = pdf;
+    results[8] = inverse.x;
+    results[9] = inverse.y;
+    results[10] = measure;
+    results[11] = 0.0;
 }

@@ -2,14 +2,12 @@
 #include "parity/outputs.glsl"
 #include "parity/polygon_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kPolygonSize + 2u) * i;
-    const vec2 u = vec2(inputs[begin + kPolygonSize], inputs[begin + kPolygonSize + 1u]);
+void compute(uint i) {
+    uint begin = (kPolygonSize + 2u) * i;
+    vec2 u = vec2(input_at(begin + kPolygonSize), input_at(begin + kPolygonSize + 1u));
 
     Technique technique = technique_prepare(input_polygon(begin));
-    const LightSample s = technique_sample(technique, u);
-    write_outputs(i, s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    LightSample s = technique_sample(technique, u);
+    write_outputs(s, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                   technique_measure(technique));
 }

@@ -9,10 +9,10 @@ const uint kPolygonSize = 6u * uint(LIGHT_VERTICES) + 3u;
 
 // A ConvexPolygon<float, LIGHT_VERTICES> of C++: vertices, edges and normal.
 ConvexPolygon input_polygon(uint begin) {
-    const uint bound = LIGHT_VERTICES;
+    uint bound = uint(LIGHT_VERTICES);
     vec3 vertices[NUSSELT_MAX_VERTICES];
     vec3 edges[NUSSELT_MAX_VERTICES];
-    for (uint j = 0u; j < NUSSELT_MAX_VERTICES; ++j) {
+    for (uint j = 0u; j < uint(NUSSELT_MAX_VERTICES); ++j) {
         vertices[j] = input_vec3(begin + 3u * min(j, bound - 1u));
         edges[j] = j + 1u < bound ? input_vec3(begin + 3u * (bound + j)) : vec3(0.0);
     }

@@ -37,14 +37,15 @@ VariantShader related_shader(Variant variant) {
 }
 
 template <class Pair>
-std::vector<VariantVerdict> judge_ordinary_lights(const gpu::Device& device, const ParityEffort& effort) {
+std::vector<VariantVerdict> judge_ordinary_lights(const ShaderPlatform& platform,
+                                                  const ParityEffort& effort) {
     std::set<std::string> ordinary{"decentral", "central", "ordinary"};
     for (const proof::TubeLight& tube : proof::tube_lights()) ordinary.insert(tube.name);
     const auto is_judged = [&](const auto& lights) { return ordinary.count(lights.name) > 0; };
-    const std::vector<Variant> variants = variants_for(device);
+    const std::vector<Variant> variants = platform.variants();
     std::vector<VariantShader> shaders;
     for (const Variant variant : variants) shaders.push_back(related_shader<Pair>(variant));
-    const auto verdicts = judge_twins<Pair>(device, shaders, effort.lights / 10, is_judged);
+    const auto verdicts = judge_twins<Pair>(platform, shaders, effort.lights / 10, is_judged);
     std::vector<VariantVerdict> results;
     for (std::size_t k = 0; k < variants.size(); ++k) results.push_back({variants[k], verdicts[k]});
     return results;

@@ -5,6 +5,7 @@
 
 #include "gpu/fused_fma.h"
 #include "lab/parity/parity.h"
+#include "lab/parity/vulkan_platform.h"
 #include "lab/timing/llvmpipe_threads.h"
 
 #include <fmt/core.h>
@@ -81,12 +82,13 @@ lab::Results results_of(const std::vector<Finding>& findings, const Options& opt
 int run(const Options& options) {
     check_json_option(options.json);
     const gpu::Device device({.choice = options.device});
+    const parity::VulkanPlatform platform(device);
     const std::vector<ParityCase> cases = parity::parity_cases();
     std::vector<Finding> findings;
     bool passes = true;
     for (const ParityCase& one : cases) {
         if ((one.subject + ", " + one.name).find(options.only) == std::string::npos) continue;
-        const Finding& finding = findings.emplace_back(Finding{&one, one.judge(device, options.effort)});
+        const Finding& finding = findings.emplace_back(Finding{&one, one.judge(platform, options.effort)});
         for (const VariantVerdict& result : finding.verdicts) passes &= result.verdict.excesses.empty();
         if (options.json != "-") print(finding);
     }

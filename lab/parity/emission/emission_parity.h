@@ -3,7 +3,7 @@
 
 #include "lab/parity/parity.h"
 #include "lab/parity/parity_check.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 #include "lab/parity/twin_shader.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <tbb/parallel_for.h>
@@ -158,19 +158,19 @@ std::vector<Verdict> judge_scenes(int count, const std::vector<std::vector<Emiss
 /// \param run         function of the runner of a shader, a class and its scenes that gives their results
 /// \param judge_scene function of a class, a scene, the results of all shaders for it, and MethodErrors to add to
 template <class Classes, class Draw, class Run, class JudgeScene>
-std::vector<Verdict> judge_classes(const gpu::Device& device, const Classes& classes, int count,
+std::vector<Verdict> judge_classes(const ShaderPlatform& platform, const Classes& classes, int count,
                                    const std::vector<VariantShader>& shaders, std::size_t input_words,
                                    const std::vector<std::uint32_t>& words, const Draw& draw, const Run& run,
                                    const JudgeScene& judge_scene) {
-    std::deque<ShaderRunner> runners;
-    for (const auto& shader : shaders) runners.emplace_back(device, shader, input_words, words);
+    std::vector<std::unique_ptr<ShaderRunner>> runners;
+    for (const auto& shader : shaders) runners.push_back(platform.load(shader, input_words, words));
     std::vector<Verdict> verdicts(shaders.size());
     for (const auto& of : classes) {
         const int scene_count = count / static_cast<int>(std::size(classes));
         std::vector<decltype(draw(of, 0))> scenes;
         for (int i = 0; i < scene_count; ++i) scenes.push_back(draw(of, i));
         std::vector<std::vector<EmissionOutputs>> outputs;
-        for (ShaderRunner& runner : runners) outputs.push_back(run(runner, of, scenes));
+        for (const auto& runner : runners) outputs.push_back(run(*runner, of, scenes));
         const auto of_class =
             judge_scenes(scene_count, outputs,
                          [&](std::size_t number, const std::vector<EmissionOutputs>& of_devices,
@@ -181,15 +181,15 @@ std::vector<Verdict> judge_classes(const gpu::Device& device, const Classes& cla
 }
 
 /// \param vertices for twin_shader()
-/// \param judge    function of a device, the shaders and the number of lights
+/// \param judge    function of a platform, the shaders and the number of lights
 template <class Judge>
 ParityCase emission_case(const char* name, int vertices, const Judge& judge) {
-    return {"technique", name, [=](const gpu::Device& device, const ParityEffort& effort) {
-                const std::vector<Variant> variants = variants_for(device);
+    return {"technique", name, [=](const ShaderPlatform& platform, const ParityEffort& effort) {
+                const std::vector<Variant> variants = platform.variants();
                 std::vector<VariantShader> shaders;
                 for (const Variant variant : variants)
                     shaders.push_back(twin_shader(name, vertices, variant));
-                const auto verdicts = judge(device, shaders, effort.lights / 3);
+                const auto verdicts = judge(platform, shaders, effort.lights / 3);
                 std::vector<VariantVerdict> results;
                 for (std::size_t k = 0; k < variants.size(); ++k)
                     results.push_back({variants[k], verdicts[k]});

@@ -156,11 +156,11 @@ void judge_scene(const Class& of, const TestMap& map, const Scene& scene,
 }
 
 template <class Pair>
-std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+std::vector<Verdict> judge_pair(const ShaderPlatform& platform, const std::vector<VariantShader>& shaders,
                                 int count) {
     const TestMaps maps;
     return judge_classes(
-        device, kClasses, count, shaders, Pair::kHasLobe ? 18 : 12, maps.words(),
+        platform, kClasses, count, shaders, Pair::kHasLobe ? 18 : 12, maps.words(),
         [](const Class& of, int number) { return draw_scene(of.surfaces, number); },
         [&](ShaderRunner& runner, const Class& of, const std::vector<Scene>& scenes) {
             return run<Pair>(runner, maps.first_word(of.surroundings), scenes);
@@ -173,10 +173,10 @@ std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<Var
 
 } // namespace
 
-std::vector<Verdict> judge_environment(const gpu::Device& device, EnvironmentTechnique technique,
+std::vector<Verdict> judge_environment(const ShaderPlatform& platform, EnvironmentTechnique technique,
                                        const std::vector<VariantShader>& shaders, int count) {
-    return technique == EnvironmentTechnique::cosine ? judge_pair<Cosine>(device, shaders, count)
-                                                     : judge_pair<OnLobe>(device, shaders, count);
+    return technique == EnvironmentTechnique::cosine ? judge_pair<Cosine>(platform, shaders, count)
+                                                     : judge_pair<OnLobe>(platform, shaders, count);
 }
 
 void add_environment_cases(std::vector<ParityCase>& cases) {

@@ -1,9 +1,8 @@
 #pragma once
 /// Parity of techniques for environment maps. They are made here: lights of the other techniques have no radiance.
 
-#include "gpu/device.h"
 #include "lab/parity/parity_check.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 
 #include <vector>
 
@@ -14,7 +13,7 @@ enum class EnvironmentTechnique { cosine, on_lobe };
 
 /// Judges shaders of one technique on all classes of maps and surfaces, with about `count` surfaces in total.
 /// \return a verdict for each shader
-std::vector<Verdict> judge_environment(const gpu::Device& device, EnvironmentTechnique technique,
+std::vector<Verdict> judge_environment(const ShaderPlatform& platform, EnvironmentTechnique technique,
                                        const std::vector<VariantShader>& shaders, int count);
 
 } // namespace nusselt::parity

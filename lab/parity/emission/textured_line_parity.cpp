@@ -372,11 +372,11 @@ void judge_scene(const Class& of, const TestProfiles& profiles, const Scene& sce
 }
 
 template <class Pair>
-std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+std::vector<Verdict> judge_pair(const ShaderPlatform& platform, const std::vector<VariantShader>& shaders,
                                 int count) {
     const TestProfiles profiles;
     return judge_classes(
-        device, kClasses, count, shaders, Pair::kInputs, profiles.words(), draw_scene,
+        platform, kClasses, count, shaders, Pair::kInputs, profiles.words(), draw_scene,
         [&](ShaderRunner& runner, const Class& of, const std::vector<Scene>& scenes) {
             return run<Pair>(runner, profiles.first_word(of.look), scenes);
         },
@@ -386,26 +386,27 @@ std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<Var
 
 } // namespace
 
-std::vector<Verdict> judge_textured_lines(const gpu::Device& device, TexturedLineTechnique technique,
+std::vector<Verdict> judge_textured_lines(const ShaderPlatform& platform, TexturedLineTechnique technique,
                                           const std::vector<VariantShader>& shaders, int count) {
     switch (technique) {
     case TexturedLineTechnique::line:
-        return judge_pair<Line>(device, shaders, count);
+        return judge_pair<Line>(platform, shaders, count);
     case TexturedLineTechnique::line_on_lobe:
-        return judge_pair<LineOnLobe>(device, shaders, count);
+        return judge_pair<LineOnLobe>(platform, shaders, count);
     case TexturedLineTechnique::tube:
-        return judge_pair<Tube>(device, shaders, count);
+        return judge_pair<Tube>(platform, shaders, count);
     default:
-        return judge_pair<TubeOnLobe>(device, shaders, count);
+        return judge_pair<TubeOnLobe>(platform, shaders, count);
     }
 }
 
 void add_textured_line_cases(std::vector<ParityCase>& cases) {
     const auto add = [&]<class Pair>(Pair) {
-        cases.push_back(emission_case(Pair::kName, 2, [](const auto& device, const auto& shaders, int count) {
-            return judge_pair<Pair>(device, shaders,
-                                    count / 2); // four techniques, with as many lights as two
-        }));
+        cases.push_back(
+            emission_case(Pair::kName, 2, [](const auto& platform, const auto& shaders, int count) {
+                return judge_pair<Pair>(platform, shaders,
+                                        count / 2); // four techniques, with as many lights as two
+            }));
     };
     add(Line{});
     add(LineOnLobe{});

@@ -2,9 +2,8 @@
 /// Parity of techniques for polygons with textures. Their lights are made here: those of the other techniques show
 /// nothing.
 
-#include "gpu/device.h"
 #include "lab/parity/parity_check.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 
 #include <vector>
 
@@ -15,7 +14,7 @@ enum class TexturedTechnique { diffuse, on_lobe };
 
 /// Judges shaders of one technique on all classes of lights, with about `count` lights in total.
 /// \return a verdict for each shader
-std::vector<Verdict> judge_textured(const gpu::Device& device, TexturedTechnique technique,
+std::vector<Verdict> judge_textured(const ShaderPlatform& platform, TexturedTechnique technique,
                                     const std::vector<VariantShader>& shaders, int count);
 
 } // namespace nusselt::parity

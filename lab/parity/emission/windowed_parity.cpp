@@ -252,11 +252,11 @@ void judge_scene(const Class& of, const Scene& scene, const std::vector<Emission
 }
 
 template <class Pair>
-std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<VariantShader>& shaders,
+std::vector<Verdict> judge_pair(const ShaderPlatform& platform, const std::vector<VariantShader>& shaders,
                                 int count) {
     const WindowedTestLights lights;
     return judge_classes(
-        device, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
+        platform, kClasses, count, shaders, Pair::kHasLobe ? 21 : 15, lights.words(),
         [&](const Class& of, int number) { return draw_scene(lights, of, number); },
         [](ShaderRunner& runner, const Class&, const std::vector<Scene>& scenes) {
             return run<Pair>(runner, scenes);
@@ -266,10 +266,10 @@ std::vector<Verdict> judge_pair(const gpu::Device& device, const std::vector<Var
 
 } // namespace
 
-std::vector<Verdict> judge_windowed(const gpu::Device& device, WindowedTechnique technique,
+std::vector<Verdict> judge_windowed(const ShaderPlatform& platform, WindowedTechnique technique,
                                     const std::vector<VariantShader>& shaders, int count) {
-    return technique == WindowedTechnique::diffuse ? judge_pair<Diffuse>(device, shaders, count)
-                                                   : judge_pair<OnLobe>(device, shaders, count);
+    return technique == WindowedTechnique::diffuse ? judge_pair<Diffuse>(platform, shaders, count)
+                                                   : judge_pair<OnLobe>(platform, shaders, count);
 }
 
 void add_windowed_cases(std::vector<ParityCase>& cases) {

@@ -48,7 +48,7 @@ inline Mis heuristic_of(float input) { return static_cast<Mis>(static_cast<std::
 
 struct Heuristics {
     static constexpr const char* kName = "heuristics";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kMis;
+    static constexpr Shader kShader{"mis", shaders::kMis};
     static constexpr std::size_t kInputs = 20;
     static constexpr Output kOutputs[] = {{"shadowed, red", Error::relative},
                                           {"shadowed, green", Error::relative},
@@ -117,7 +117,7 @@ inline void draw_ggx_lobe(RandomSource& random, std::vector<float>& inputs) {
 
 struct VisibleNormals {
     static constexpr const char* kName = "visible normals";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kVisibleNormals;
+    static constexpr Shader kShader{"visible_normals", shaders::kVisibleNormals};
     static constexpr std::size_t kInputs = 9;
     static constexpr Output kOutputs[] = {{"sample.x", Error::absolute},
                                           {"sample.y", Error::absolute},
@@ -154,7 +154,7 @@ struct VisibleNormals {
 
 struct PolygonBrdfSampling {
     static constexpr const char* kName = "sampling of the BRDF";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonBrdf;
+    static constexpr Shader kShader{"polygon_brdf", shaders::kPolygonBrdf};
     static constexpr std::size_t kInputs = 21;
     static constexpr Output kOutputs[] = {
         {"wi.x", Error::absolute}, {"wi.y", Error::absolute},
@@ -295,7 +295,7 @@ inline Mis draw_estimate(RandomSource& random) {
 
 struct PolygonDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for polygons";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonDirectLight;
+    static constexpr Shader kShader{"polygon_direct_light", shaders::kPolygonDirectLight};
     static constexpr std::size_t kInputs = 12 + kSurfaceSize + Choice::kSize;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
@@ -318,7 +318,7 @@ struct PolygonDirectLight : SampleOutputs {
 
 struct LineDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for lines";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kLineDirectLight;
+    static constexpr Shader kShader{"line_direct_light", shaders::kLineDirectLight};
     static constexpr std::size_t kInputs = 6 + kSurfaceSize + Choice::kSize;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {
@@ -339,7 +339,7 @@ struct LineDirectLight : SampleOutputs {
 /// A pair of techniques whose densities the test sets and whose samples may miss the light.
 struct BrdfDirectLight : SampleOutputs {
     static constexpr const char* kName = "estimates for other pairs";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kBrdfDirectLight;
+    static constexpr Shader kShader{"brdf_direct_light", shaders::kBrdfDirectLight};
     static constexpr std::size_t kInputs = PolygonDirectLight::kInputs;
 
     static void draw(RandomSource& random, std::vector<float>& inputs) {

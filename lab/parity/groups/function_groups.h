@@ -24,7 +24,7 @@ namespace nusselt::parity {
 
 struct Arithmetic {
     static constexpr const char* kName = "arithmetic";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kArithmetic;
+    static constexpr Shader kShader{"arithmetic", shaders::kArithmetic};
     static constexpr std::size_t kInputs = 11;
     static constexpr Output kOutputs[] = {{"difference_of_products", Error::relative},
                                           {"two_product_error", Error::relative},
@@ -81,7 +81,7 @@ struct Arithmetic {
 
 struct Trigonometry {
     static constexpr const char* kName = "trigonometry";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kTrig;
+    static constexpr Shader kShader{"trig", shaders::kTrig};
     static constexpr std::size_t kInputs = 4;
     static constexpr Output kOutputs[] = {
         {"atan2_positive", Error::relative},           {"sine of a half turn", Error::absolute},
@@ -122,7 +122,7 @@ struct Trigonometry {
 
 struct Frames {
     static constexpr const char* kName = "frames";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kFrame;
+    static constexpr Shader kShader{"frame", shaders::kFrame};
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {
         {"t.x", Error::absolute},     {"t.y", Error::absolute},     {"t.z", Error::absolute},
@@ -155,7 +155,7 @@ struct Frames {
 
 struct Brdfs {
     static constexpr const char* kName = "BRDFs";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kBsdf;
+    static constexpr Shader kShader{"bsdf", shaders::kBsdf};
     static constexpr std::size_t kInputs = 13;
     static constexpr Output kOutputs[] = {
         {"Frostbite, red", Error::relative},  {"Frostbite, green", Error::relative},
@@ -194,7 +194,7 @@ struct Brdfs {
 
 struct PhongLobes {
     static constexpr const char* kName = "Phong lobes";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kPhong;
+    static constexpr Shader kShader{"phong", shaders::kPhong};
     static constexpr std::size_t kInputs = 11;
     static constexpr Output kOutputs[] = {{"red", Error::relative},
                                           {"green", Error::relative},
@@ -257,7 +257,7 @@ inline void draw_surface(RandomSource& random, const Vec3<double>& corner, std::
 
 struct Polygons {
     static constexpr const char* kName = "polygons";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygon;
+    static constexpr Shader kShader{"polygon", shaders::kPolygon};
     static constexpr std::size_t kInputs = 18;
     static constexpr Output kOutputs[] = {{"area", Error::relative},
                                           {"solid angle", Error::measure},
@@ -293,7 +293,7 @@ struct Polygons {
 
 struct Clipping {
     static constexpr const char* kName = "clipping";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kClip;
+    static constexpr Shader kShader{"clip", shaders::kClip};
     static constexpr std::size_t kInputs = 13;
     static constexpr Output kOutputs[] = {
         {"vertex.x", Error::absolute}, {"vertex.y", Error::absolute}, {"vertex.z", Error::absolute},
@@ -326,7 +326,7 @@ struct Clipping {
 
 struct Lines {
     static constexpr const char* kName = "lines";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kLine;
+    static constexpr Shader kShader{"line", shaders::kLine};
     static constexpr std::size_t kInputs = 12;
     static constexpr Output kOutputs[] = {{"length", Error::relative},
                                           {"solid angle", Error::measure},

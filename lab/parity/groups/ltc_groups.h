@@ -37,7 +37,7 @@ inline constexpr std::size_t kLobeSize = 6;
 
 struct ShadingFrames {
     static constexpr const char* kName = "shading frames";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kShadingFrame;
+    static constexpr Shader kShader{"shading_frame", shaders::kShadingFrame};
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {
         {"t.x", Error::absolute}, {"t.y", Error::absolute}, {"t.z", Error::absolute},
@@ -64,7 +64,7 @@ struct ShadingFrames {
 
 struct Lobes {
     static constexpr const char* kName = "lobes";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kLobe;
+    static constexpr Shader kShader{"lobe", shaders::kLobe};
     static constexpr std::size_t kInputs = kLobeSize + 3;
     static constexpr Output kOutputs[] = {{"to_cosine, x", Error::relative},
                                           {"to_cosine, y", Error::relative},
@@ -105,7 +105,7 @@ struct Lobes {
 
 struct PolygonShading {
     static constexpr const char* kName = "shading with polygons";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kPolygonShading;
+    static constexpr Shader kShader{"polygon_shading", shaders::kPolygonShading};
     static constexpr std::size_t kInputs = 12 + kLobeSize;
     static constexpr Output kOutputs[] = {
         {"diffuse_integral", Error::absolute},      {"lobe_integral", Error::absolute},
@@ -138,7 +138,7 @@ struct PolygonShading {
 
 struct LineShading {
     static constexpr const char* kName = "shading with lines";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kLineShading;
+    static constexpr Shader kShader{"line_shading", shaders::kLineShading};
     static constexpr std::size_t kInputs = 10 + kLobeSize;
     static constexpr Output kOutputs[] = {{"diffuse_integral", Error::measure},
                                           {"lobe_integral", Error::measure},
@@ -205,7 +205,7 @@ Results<Real> results_of(const LtcCoefficients<Real>& lobe) {
 /// The table with 16-bit numbers, which the device decodes.
 struct Table {
     static constexpr const char* kName = "table of 16 bits";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kLtcTable;
+    static constexpr Shader kShader{"ltc_table", shaders::kLtcTable};
     static constexpr std::size_t kInputs = 6;
     static constexpr Output kOutputs[] = {{"m00", Error::absolute},
                                           {"m02", Error::absolute},
@@ -242,7 +242,7 @@ inline const tables::LtcTable& engine_table() {
 /// The table with half-precision floats.
 struct EngineTable {
     static constexpr const char* kName = "table of half floats";
-    static constexpr std::span<const std::uint32_t> kShader = shaders::kEngineTable;
+    static constexpr Shader kShader{"engine_table", shaders::kEngineTable};
     static constexpr std::size_t kInputs = 3;
     static constexpr Output kOutputs[] = {{"m00", Error::absolute},     {"m02", Error::absolute},
                                           {"1 / m11", Error::absolute}, {"m20 over width", Error::absolute},

@@ -1,6 +1,6 @@
 #include "lab/parity/groups/random_numbers.h"
 #include "lab/parity/parity.h"
-#include "lab/parity/shader_runner.h"
+#include "lab/parity/shader_platform.h"
 #include "lab/parity/table_words.h"
 #include "proof/hostile/lights.h"
 #include "shaders/light_random.h"
@@ -22,6 +22,9 @@ namespace nusselt::parity {
 namespace {
 
 using hostile::RandomSource;
+
+constexpr Shader kWords{"random", shaders::kRandom};
+constexpr Shader kLightRandom{"light_random", shaders::kLightRandom};
 
 struct Call {
     Sampler sampler;
@@ -46,7 +49,7 @@ Call draw_call(std::size_t i) {
 }
 
 /// How many words and numbers of shaders/parity/functions/random.comp differ from those of C++.
-int different_words(const gpu::Device& device, std::size_t calls) {
+int different_words(const ShaderPlatform& platform, Variant variant, std::size_t calls) {
     std::vector<float> inputs;
     const auto bits = [](RandomSource& random) {
         // A word with random bits may be a signalling NaN. It must not pass through arithmetic, but loads and stores
@@ -59,7 +62,7 @@ int different_words(const gpu::Device& device, std::size_t calls) {
         inputs.push_back(static_cast<float>(random.uniform() * 0.9999));
     }
     int different = 0;
-    const auto results = ShaderRunner(device, shaders::kRandom, 5).run(inputs);
+    const auto results = platform.load(VariantShader(kWords, variant), 5)->run(inputs);
     for (std::size_t i = 0; i < calls; ++i) {
         std::uint32_t key[4], words[8];
         std::memcpy(key, &inputs[5 * i], sizeof key);
@@ -87,17 +90,20 @@ VariantVerdict equal_bits(Variant variant, int different, std::size_t calls) {
     return result;
 }
 
-std::vector<VariantVerdict> judge_words(const gpu::Device& device, const ParityEffort& effort) {
+std::vector<VariantVerdict> judge_words(const ShaderPlatform& platform, const ParityEffort& effort) {
     const std::size_t calls = effort.function_calls();
-    return {equal_bits(Variant::split, different_words(device, calls), calls)};
+    std::vector<VariantVerdict> results;
+    for (const Variant variant : platform.variants())
+        results.push_back(equal_bits(variant, different_words(platform, variant, calls), calls));
+    return results;
 }
 
-std::vector<VariantVerdict> judge_light_random(const gpu::Device& device, const ParityEffort& effort) {
+std::vector<VariantVerdict> judge_light_random(const ShaderPlatform& platform, const ParityEffort& effort) {
     const std::size_t calls = effort.random_calls();
     std::vector<VariantVerdict> results;
-    for (const Variant variant : variants_for(device)) {
-        const VariantShader shader(shaders::kLightRandom, variant);
-        const auto different = different_random_numbers(device, shader, calls);
+    for (const Variant variant : platform.variants()) {
+        const VariantShader shader(kLightRandom, variant);
+        const auto different = different_random_numbers(platform, shader, calls);
         results.push_back(equal_bits(variant, std::accumulate(different.begin(), different.end(), 0), calls));
     }
     return results;
@@ -105,7 +111,7 @@ std::vector<VariantVerdict> judge_light_random(const gpu::Device& device, const 
 
 } // namespace
 
-std::array<int, kSamplers + 1> different_random_numbers(const gpu::Device& device,
+std::array<int, kSamplers + 1> different_random_numbers(const ShaderPlatform& platform,
                                                         const VariantShader& shader, std::size_t calls) {
     std::vector<float> inputs;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -114,7 +120,7 @@ std::array<int, kSamplers + 1> different_random_numbers(const gpu::Device& devic
                                          c.sample_count, c.light, c.pair})
             inputs.push_back(std::bit_cast<float>(word));
     }
-    const auto results = ShaderRunner(device, shader, 8, blue_noise_words()).run(inputs);
+    const auto results = platform.load(shader, 8, blue_noise_words())->run(inputs);
     std::array<int, kSamplers + 1> differences{};
     for (std::size_t i = 0; i < calls; ++i) {
         const Call c = draw_call(i);

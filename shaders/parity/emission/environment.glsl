@@ -1,13 +1,11 @@
 // Inputs: an environment, and two random numbers.
 #include "parity/emission/environment_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = kEnvironmentSize * i;
+void compute(uint i) {
+    uint begin = kEnvironmentSize * i;
 
     Technique technique = technique_prepare(input_map(begin), input_frame(begin));
-    const TexturedSample s = technique_sample(technique, input_random(begin));
-    write_environment(i, s, technique.cells, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    TexturedSample s = technique_sample(technique, input_random(begin));
+    write_environment(s, technique.cells, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                       technique_measure(technique));
 }

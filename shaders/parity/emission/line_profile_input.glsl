@@ -1,8 +1,7 @@
 // Profiles of lines and tubes among the inputs, and what samples of these lights return.
-#include "parity/buffers.glsl"
+#include "parity/words.glsl"
 
-layout(set = 0, binding = 2, std430) readonly buffer Profiles { uint words[]; };
-uint line_profile_word(uint at) { return words[at]; }
+uint line_profile_word(uint at) { return word_at(at); }
 
 // What the sample of a light returns besides the sample: the layout of nusselt::parity::EmissionOutputs.
 struct AlongLine {
@@ -13,16 +12,15 @@ struct AlongLine {
     float measure;
 };
 
-void write_along(uint i, vec3 wi, float pdf, AlongLine along) {
-    const uint at = kOutputSize * i;
-    write_vec3(at, wi);
-    outputs[at + 3u] = pdf;
-    outputs[at + 4u] = below_one(along.at);
-    outputs[at + 5u] = 0.0;
-    outputs[at + 6u] = along.place;
-    outputs[at + 7u] = along.unshadowed;
-    outputs[at + 8u] = along.pdf;
-    outputs[at + 9u] = along.inverse.x;
-    outputs[at + 10u] = along.inverse.y;
-    outputs[at + 11u] = along.measure;
+void write_along(vec3 wi, float pdf, AlongLine along) {
+    write_vec3(0, wi);
+    results[3] = pdf;
+    results[4] = below_one(along.at);
+    results[5] = 0.0;
+    results[6] = along.place;
+    results[7] = along.unshadowed;
+    results[8] = along.pdf;
+    results[9] = along.inverse.x;
+    results[10] = along.inverse.y;
+    results[11] = along.measure;
 }

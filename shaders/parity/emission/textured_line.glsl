@@ -2,16 +2,14 @@
 #include "parity/emission/line_profile_input.glsl"
 #include "parity/line_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kLineSize + 2u) * i;
-    const LineSegment light = input_line(begin);
+void compute(uint i) {
+    uint begin = (kLineSize + 2u) * i;
+    LineSegment light = input_line(begin);
 
-    Technique technique = technique_prepare(light, uint(inputs[begin + kLineSize]));
-    const TexturedSample s = technique_sample(technique, inputs[begin + kLineSize + 1u]);
-    const float off = nusselt_length(s.p - exact_fma(s.at.x * light.len, light.s, light.p0));
-    write_along(i, s.wi, s.pdf,
+    Technique technique = technique_prepare(light, uint(input_at(begin + kLineSize)));
+    TexturedSample s = technique_sample(technique, input_at(begin + kLineSize + 1u));
+    float off = nusselt_length(s.p - exact_fma(s.at.x * light.len, light.s, light.p0));
+    write_along(s.wi, s.pdf,
                 AlongLine(s.at.x, s.pdf > 0.0 ? off : 0.0, technique.cells.expected.y,
                           technique_pdf(technique, s.wi), vec2(technique_invert(technique, s.wi), 0.0),
                           technique_measure(technique)));

@@ -3,17 +3,15 @@
 #include "parity/emission/line_profile_input.glsl"
 #include "parity/lobe_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kCylinderSize + 3u + kLobeSize) * i;
-    const uint random = begin + kCylinderSize + 1u;
-    const Cylinder light = input_cylinder(begin);
+void compute(uint i) {
+    uint begin = (kCylinderSize + 3u + kLobeSize) * i;
+    uint random = begin + kCylinderSize + 1u;
+    Cylinder light = input_cylinder(begin);
 
-    Technique technique = technique_prepare(light, uint(inputs[begin + kCylinderSize]), input_lobe(begin + kCylinderSize + 3u));
-    const LightSample s = technique_sample(technique, vec2(inputs[random], inputs[random + 1u]));
-    const float measure = technique_measure(technique);
-    write_along(i, s.wi, s.pdf,
+    Technique technique = technique_prepare(light, uint(input_at(begin + kCylinderSize)), input_lobe(begin + kCylinderSize + 3u));
+    LightSample s = technique_sample(technique, vec2(input_at(random), input_at(random + 1u)));
+    float measure = technique_measure(technique);
+    write_along(s.wi, s.pdf,
                 AlongLine(0.0, place_along(light.axis, s.p), measure, technique_pdf(technique, s.wi),
                           technique_invert(technique, s.wi), measure));
 }

@@ -1,33 +1,31 @@
 // Lights whose radiance depends on the direction among the inputs, and what samples of them return.
-#include "parity/buffers.glsl"
+#include "parity/words.glsl"
 
-layout(set = 0, binding = 2, std430) readonly buffer Lights { uint words[]; };
-uint windowed_light_word(uint at) { return words[at]; }
+uint windowed_light_word(uint at) { return word_at(at); }
 
 // The first word of the light, the shading point, a Frame<float> of C++, and two random numbers.
 const uint kWindowedSize = 15u;
 
-uint input_light(uint begin) { return uint(inputs[begin]); }
+uint input_light(uint begin) { return uint(input_at(begin)); }
 WindowPlane input_plane(uint begin) {
     return to_shading_space(
         windowed_light_plane(input_light(begin)), input_vec3(begin + 1u),
         Frame(input_vec3(begin + 4u), input_vec3(begin + 7u), input_vec3(begin + 10u)));
 }
-vec2 input_random(uint begin) { return vec2(inputs[begin + 13u], inputs[begin + 14u]); }
+vec2 input_random(uint begin) { return vec2(input_at(begin + 13u), input_at(begin + 14u)); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_windowed(uint i, TexturedSample s, WindowedCells cells, WindowPlane plane, float pdf, vec2 inverse,
+void write_windowed(TexturedSample s, WindowedCells cells, WindowPlane plane, float pdf, vec2 inverse,
                     float measure) {
-    const uint at = kOutputSize * i;
-    const float along = dot(plane.frame.n, plane.corner) / dot(plane.frame.n, s.wi);
-    write_vec3(at, s.wi);
-    outputs[at + 3u] = s.pdf;
-    outputs[at + 4u] = s.at.x;
-    outputs[at + 5u] = s.at.y;
-    outputs[at + 6u] = s.pdf > 0.0 ? nusselt_length(s.p - along * s.wi) : 0.0;
-    outputs[at + 7u] = windowed_cells_unshadowed(cells).y;
-    outputs[at + 8u] = pdf;
-    outputs[at + 9u] = inverse.x;
-    outputs[at + 10u] = inverse.y;
-    outputs[at + 11u] = measure;
+    float along = dot(plane.frame.n, plane.corner) / dot(plane.frame.n, s.wi);
+    write_vec3(0, s.wi);
+    results[3] = s.pdf;
+    results[4] = s.at.x;
+    results[5] = s.at.y;
+    results[6] = s.pdf > 0.0 ? nusselt_length(s.p - along * s.wi) : 0.0;
+    results[7] = windowed_cells_unshadowed(cells).y;
+    results[8] = pdf;
+    results[9] = inverse.x;
+    results[10] = inverse.y;
+    results[11] = measure;
 }

@@ -1,14 +1,12 @@
 // Inputs: a light whose radiance depends on the direction, a surface, and two random numbers.
 #include "parity/emission/windowed_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = kWindowedSize * i;
-    const WindowPlane plane = input_plane(begin);
+void compute(uint i) {
+    uint begin = kWindowedSize * i;
+    WindowPlane plane = input_plane(begin);
 
     Technique technique = technique_prepare(plane, input_light(begin));
-    const TexturedSample s = technique_sample(technique, input_random(begin));
-    write_windowed(i, s, windowed_polygon_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    TexturedSample s = technique_sample(technique, input_random(begin));
+    write_windowed(s, windowed_polygon_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                    technique_measure(technique));
 }

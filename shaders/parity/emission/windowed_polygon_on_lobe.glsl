@@ -3,14 +3,12 @@
 #include "parity/lobe_input.glsl"
 #include "parity/emission/windowed_input.glsl"
 
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (kWindowedSize + kLobeSize) * i;
-    const WindowPlane plane = input_plane(begin);
+void compute(uint i) {
+    uint begin = (kWindowedSize + kLobeSize) * i;
+    WindowPlane plane = input_plane(begin);
 
     Technique technique = technique_prepare(plane, input_light(begin), input_lobe(begin + kWindowedSize));
-    const TexturedSample s = technique_sample(technique, input_random(begin));
-    write_windowed(i, s, windowed_polygon_ltc_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
+    TexturedSample s = technique_sample(technique, input_random(begin));
+    write_windowed(s, windowed_polygon_ltc_cells(technique), plane, technique_pdf(technique, s.wi), technique_invert(technique, s.wi),
                    technique_measure(technique));
 }

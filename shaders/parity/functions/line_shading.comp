@@ -5,26 +5,23 @@
 #include "parity/lobe_input.glsl"
 
 // Inputs: both ends in shading space, a lobe, a unit normal and a radius.
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = (10u + kLobeSize) * i;
-    const LineSegment light = make_line(input_vec3(begin), input_vec3(begin + 3u));
-    const Ltc ltc = input_lobe(begin + 6u);
-    const uint rest = begin + 6u + kLobeSize;
-    const float radius = inputs[rest + 3u];
-    const float integral = lobe_integral(light, ltc);
-    const float caps = caps_integral(light, radius, ltc);
-    const LineSegment image = to_cosine_space(scaled(light, scale_of(light)), ltc);
-    const uint at = kOutputSize * i;
-    outputs[at] = diffuse_integral(light);
-    outputs[at + 1u] = integral;
-    outputs[at + 2u] = clipped_lobe_integral(light, ltc);
-    outputs[at + 3u] = tube_integral(integral, radius);
-    outputs[at + 4u] = tube_integral(integral, radius, clipped_caps_integral(light, radius, ltc));
-    outputs[at + 5u] = caps;
-    outputs[at + 6u] = strip_integral(light, input_vec3(rest), radius, integral);
-    outputs[at + 7u] = diffuse_caps_integral(light, radius);
-    write_vec3(at + 8u, image.s);
-    outputs[at + 11u] = image.len;
+void compute(uint i) {
+    uint begin = (10u + kLobeSize) * i;
+    LineSegment light = make_line(input_vec3(begin), input_vec3(begin + 3u));
+    Ltc ltc = input_lobe(begin + 6u);
+    uint rest = begin + 6u + kLobeSize;
+    float radius = input_at(rest + 3u);
+    float integral = lobe_integral(light, ltc);
+    float caps = caps_integral(light, radius, ltc);
+    LineSegment image = to_cosine_space(scaled(light, scale_of(light)), ltc);
+    results[0] = diffuse_integral(light);
+    results[1] = integral;
+    results[2] = clipped_lobe_integral(light, ltc);
+    results[3] = tube_integral(integral, radius);
+    results[4] = tube_integral(integral, radius, clipped_caps_integral(light, radius, ltc));
+    results[5] = caps;
+    results[6] = strip_integral(light, input_vec3(rest), radius, integral);
+    results[7] = diffuse_caps_integral(light, radius);
+    write_vec3(8, image.s);
+    results[11] = image.len;
 }

@@ -2,25 +2,22 @@
 
 // Inputs: heuristic, technique of the sample, visibility, counts of samples, coefficients, densities, components, and a
 // random number.
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uint begin = 20u * i;
-    const MisTechniques techniques =
-        MisTechniques(float[2](inputs[begin + 3u], inputs[begin + 4u]),
+void compute(uint i) {
+    uint begin = 20u * i;
+    MisTechniques techniques =
+        MisTechniques(float[2](input_at(begin + 3u), input_at(begin + 4u)),
                       vec3[2](input_vec3(begin + 5u), input_vec3(begin + 8u)));
-    const MisSample at = MisSample(float[2](inputs[begin + 11u], inputs[begin + 12u]),
+    MisSample at = MisSample(float[2](input_at(begin + 11u), input_at(begin + 12u)),
                                    vec3[2](input_vec3(begin + 13u), input_vec3(begin + 16u)));
-    const MisEstimate estimate =
-        mis_estimate(int(inputs[begin]), int(inputs[begin + 1u]), inputs[begin + 2u], techniques, at);
-    const OneSampleChoice choice = one_sample_choice_prepare(techniques);
-    const OneSampleDecision decision = one_sample_choice_decide(choice, inputs[begin + 19u]);
-    const uint result = kOutputSize * i;
-    write_vec3(result, estimate.shadowed);
-    write_vec3(result + 3u, estimate.constant);
-    outputs[result + 6u] = choice.probability[0];
-    outputs[result + 7u] = choice.probability[1];
+    MisEstimate estimate =
+        mis_estimate(int(input_at(begin)), int(input_at(begin + 1u)), input_at(begin + 2u), techniques, at);
+    OneSampleChoice choice = one_sample_choice_prepare(techniques);
+    OneSampleDecision decision = one_sample_choice_decide(choice, input_at(begin + 19u));
+    write_vec3(0, estimate.shadowed);
+    write_vec3(3, estimate.constant);
+    results[6] = choice.probability[0];
+    results[7] = choice.probability[1];
     // Continuous also where the decision changes.
-    outputs[result + 8u] = float(decision.chosen) + decision.u;
-    write_vec3(result + 9u, one_sample_choice_estimate(choice, at).shadowed);
+    results[8] = float(decision.chosen) + decision.u;
+    write_vec3(9, one_sample_choice_estimate(choice, at).shadowed);
 }

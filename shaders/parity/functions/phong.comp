@@ -5,14 +5,12 @@
 #include "parity/buffers.glsl"
 
 // Inputs: wo, wi, albedo, exponent and an angle up to pi / 2.
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const float exponent = inputs[11u * i + 9u];
-    const Phong phong = phong_prepare(input_vec3(11u * i), input_vec3(11u * i + 6u), exponent);
-    const float logarithm = negative_log_of_cosine(sincos_quarter_turn(inputs[11u * i + 10u]));
-    write_vec3(kOutputSize * i, phong_eval(phong, input_vec3(11u * i + 3u)));
-    outputs[kOutputSize * i + 3u] = phong_alpha(exponent);
-    outputs[kOutputSize * i + 4u] = logarithm;
-    outputs[kOutputSize * i + 5u] = exp_of_negative(logarithm);
+void compute(uint i) {
+    float exponent = input_at(11u * i + 9u);
+    Phong phong = phong_prepare(input_vec3(11u * i), input_vec3(11u * i + 6u), exponent);
+    float logarithm = negative_log_of_cosine(sincos_quarter_turn(input_at(11u * i + 10u)));
+    write_vec3(0, phong_eval(phong, input_vec3(11u * i + 3u)));
+    results[3] = phong_alpha(exponent);
+    results[4] = logarithm;
+    results[5] = exp_of_negative(logarithm);
 }

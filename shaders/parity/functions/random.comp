@@ -6,24 +6,21 @@
 #include "parity/buffers.glsl"
 
 // Inputs: the bits of four words, a number in [0, 1).
-void main() {
-    const uint i = gl_GlobalInvocationID.x;
-    if (i >= count) return;
-    const uvec4 key = uvec4(floatBitsToUint(inputs[5u * i]), floatBitsToUint(inputs[5u * i + 1u]),
-                            floatBitsToUint(inputs[5u * i + 2u]), floatBitsToUint(inputs[5u * i + 3u]));
-    const uvec4 hash = pcg4d(key);
-    const uvec2 plain = sobol(key.x);
-    const uvec2 scrambled = owen_scrambled_sobol(key.x, SobolSeeds(key.y, key.z, key.w));
-    const uint at = kOutputSize * i;
-    outputs[at] = uintBitsToFloat(hash.x);
-    outputs[at + 1u] = uintBitsToFloat(hash.y);
-    outputs[at + 2u] = uintBitsToFloat(hash.z);
-    outputs[at + 3u] = uintBitsToFloat(hash.w);
-    outputs[at + 4u] = uintBitsToFloat(plain.x);
-    outputs[at + 5u] = uintBitsToFloat(plain.y);
-    outputs[at + 6u] = uintBitsToFloat(scrambled.x);
-    outputs[at + 7u] = uintBitsToFloat(scrambled.y);
-    outputs[at + 8u] = to_unit(key.x);
-    const uint points = 1u + key.z % 1024u;
-    outputs[at + 9u] = uniform_jittered(inputs[5u * i + 4u], key.y % points, points);
+void compute(uint i) {
+    uvec4 key = uvec4(floatBitsToUint(input_at(5u * i)), floatBitsToUint(input_at(5u * i + 1u)),
+                            floatBitsToUint(input_at(5u * i + 2u)), floatBitsToUint(input_at(5u * i + 3u)));
+    uvec4 hash = pcg4d(key);
+    uvec2 plain = sobol(key.x);
+    uvec2 scrambled = owen_scrambled_sobol(key.x, SobolSeeds(key.y, key.z, key.w));
+    results[0] = uintBitsToFloat(hash.x);
+    results[1] = uintBitsToFloat(hash.y);
+    results[2] = uintBitsToFloat(hash.z);
+    results[3] = uintBitsToFloat(hash.w);
+    results[4] = uintBitsToFloat(plain.x);
+    results[5] = uintBitsToFloat(plain.y);
+    results[6] = uintBitsToFloat(scrambled.x);
+    results[7] = uintBitsToFloat(scrambled.y);
+    results[8] = to_unit(key.x);
+    uint points = 1u + key.z % 1024u;
+    results[9] = uniform_jittered(input_at(5u * i + 4u), key.y % points, points);
 }

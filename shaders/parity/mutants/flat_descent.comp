@@ -4,7 +4,7 @@
 #include "nusselt/emission/cell_descent.glsl"
 
 TexelChoice choose_flat(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
-    const vec3 up = vec3(0.0, 0.0, 1.0);
+    vec3 up = vec3(0.0, 0.0, 1.0);
     return choose_texel(light, TexturePlane(up, vec3(0.0), vec3(0.0), up), cell, u);
 }
 #define choose_texel choose_flat

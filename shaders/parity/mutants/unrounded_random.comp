@@ -4,7 +4,7 @@
 #include "nusselt/core/real.glsl"
 
 float unrounded_quotient(float a, float b) {
-    const float q = a / b;
+    float q = a / b;
     return q > 0.0 ? uintBitsToFloat(floatBitsToUint(q) - 1u) : q;
 }
 #define rounded_quotient unrounded_quotient

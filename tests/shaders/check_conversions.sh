@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# The GLSL of each technique becomes HLSL and Metal Shading Language with the functions of the technique, and glslang compiles
+# the HLSL, of all techniques at full effort and of a few otherwise. No compiler for Metal runs on Debian.
+# Usage: check_conversions.sh GLSLANG_VALIDATOR LIST WORK_FOLDER
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+glslang=$1 list=$2 work=$3
+failed=0
+
+compiles() { "$glslang" -D -V -e main -S comp --quiet -o "$work/hlsl.spv" "$1" >"$work/log" 2>&1; }
+
+rm -rf "$work"
+cmake -D LIST="$list" -D OUTPUT="$work" -P "$root/scripts/convert-shaders.cmake"
+for hlsl in "$work"/hlsl/*.hlsl; do
+    name=$(basename "$hlsl" .hlsl)
+    for file in "$hlsl" "$work/msl/$name.metal"; do
+        for function in prepare sample pdf invert measure; do
+            grep -qE "^[a-zA-Z0-9]+ [a-z_]+_$function\(" "$file" || { echo "$file: no function _$function"; failed=1; }
+        done
+    done
+done
+
+compiled=(polygon_projected_solid_angle line_ltc cylinder_solid_angle)
+if [ "${NUSSELT_TEST_EFFORT:-quick}" = full ]; then
+    compiled=("$work"/hlsl/*.hlsl)
+    compiled=("${compiled[@]##*/}")
+    compiled=("${compiled[@]%.hlsl}")
+fi
+for name in "${compiled[@]}"; do
+    compiles "$work/hlsl/$name.hlsl" || { echo "$name.hlsl:"; cat "$work/log"; failed=1; }
+done
+sed 's/nusselt_max(/unknown_max(/' "$work/hlsl/line_ltc.hlsl" | sed '0,/unknown_max(/s//nusselt_max(/' >"$work/wrong.hlsl"
+! compiles "$work/wrong.hlsl" || { echo "HLSL that calls what is not there compiles"; failed=1; }
+exit $failed
