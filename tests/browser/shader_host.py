@@ -27,7 +27,7 @@ from es_shader import es_source
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = b"<!doctype html><meta charset=utf-8><title>Shaders</title><script src=/shader_host.js></script>"
-TIMEOUT = 300  # seconds for an answer: shaders in software take long to compile
+TIMEOUT = 900  # seconds for an answer: shaders take 20 s to compile, and ten times as long where others keep the machine busy
 
 
 class Exchange:

@@ -2,10 +2,16 @@
 # The GLSL of each technique becomes HLSL and Metal Shading Language with the functions of the technique, and glslang compiles
 # the HLSL, of all techniques at full effort and of a few otherwise. No compiler for Metal runs on Debian.
 # Usage: check_conversions.sh GLSLANG_VALIDATOR LIST WORK_FOLDER
+# Ends with 77 where spirv-cross is missing; with CI=true in the environment, that is a failure.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 glslang=$1 list=$2 work=$3
 failed=0
+if ! command -v spirv-cross >/dev/null; then
+    echo "spirv-cross is missing"
+    [ "${CI:-}" != true ] || exit 1
+    exit 77
+fi
 
 compiles() { "$glslang" -D -V -e main -S comp --quiet -o "$work/hlsl.spv" "$1" >"$work/log" 2>&1; }
 
