@@ -2,7 +2,7 @@
 #include "parity/buffers.glsl"
 
 // The layout of nusselt::parity::DeviceOutputs.
-void write_outputs(uint i, LightSample s, float pdf, vec2 inverse, float measure) {
+void write_outputs(uint i, const LightSample s, float pdf, vec2 inverse, float measure) {
     uint at = kOutputSize * i;
     write_vec3(at, s.wi);
     outputs[at + 3u] = s.pdf;

@@ -9,7 +9,7 @@ SurfacePoint input_surface(uint begin) {
                         input_vec3(begin + 12u), inputs[begin + 15u]);
 }
 
-SpecularFit fit_at(SurfacePoint point) {
+SpecularFit fit_at(const SurfacePoint point) {
     const ivec3 samples = ivec3(words[6], words[5], words[4]);
     const float cos_o = dot(point.normal, point.wo);
     const LtcTableCell cell = ltc_table_cell(point.roughness, cos_o, mean_f0(point.f0), samples);
@@ -18,7 +18,7 @@ SpecularFit fit_at(SurfacePoint point) {
 }
 
 // Direction and distance mean nothing where the sample does not count.
-void write_sample(uint i, WorldLightSample s) {
+void write_sample(uint i, const WorldLightSample s) {
     const uint at = kOutputSize * i;
     const bool counts = s.shadowed != vec3(0.0);
     write_vec3(at, counts ? s.direction : vec3(0.0));

@@ -20,7 +20,8 @@ Frame input_frame(uint begin) {
 vec2 input_random(uint begin) { return vec2(inputs[begin + 10u], inputs[begin + 11u]); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_environment(uint i, TexturedSample s, EnvironmentCells cells, float pdf, vec2 inverse, float measure) {
+void write_environment(uint i, const TexturedSample s, const EnvironmentCells cells, float pdf, vec2 inverse,
+                       float measure) {
     const uint at = kOutputSize * i;
     write_vec3(at, s.p);
     outputs[at + 3u] = s.pdf;

@@ -13,7 +13,7 @@ struct AlongLine {
     float measure;
 };
 
-void write_along(uint i, vec3 wi, float pdf, AlongLine along) {
+void write_along(uint i, vec3 wi, float pdf, const AlongLine along) {
     const uint at = kOutputSize * i;
     write_vec3(at, wi);
     outputs[at + 3u] = pdf;

@@ -14,7 +14,8 @@ uint input_light(uint begin) { return uint(inputs[begin + 12u]); }
 vec2 input_random(uint begin) { return vec2(inputs[begin + 13u], inputs[begin + 14u]); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_textured(uint i, TexturedSample s, TexturedCells cells, TexturePlane plane, float pdf, vec2 inverse,
+void write_textured(uint i, const TexturedSample s, const TexturedCells cells, const TexturePlane plane, float pdf,
+                    vec2 inverse,
                     float measure) {
     const uint at = kOutputSize * i;
     write_vec3(at, s.wi);

@@ -16,7 +16,8 @@ WindowPlane input_plane(uint begin) {
 vec2 input_random(uint begin) { return vec2(inputs[begin + 13u], inputs[begin + 14u]); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_windowed(uint i, TexturedSample s, WindowedCells cells, WindowPlane plane, float pdf, vec2 inverse,
+void write_windowed(uint i, const TexturedSample s, const WindowedCells cells, const WindowPlane plane, float pdf,
+                    vec2 inverse,
                     float measure) {
     const uint at = kOutputSize * i;
     const float along = dot(plane.frame.n, plane.corner) / dot(plane.frame.n, s.wi);

@@ -1,6 +1,6 @@
 #include "parity/buffers.glsl"
 
-void write_visible_normals(uint at, GgxVisibleNormals normals, vec2 u, vec3 wi) {
+void write_visible_normals(uint at, const GgxVisibleNormals normals, vec2 u, vec3 wi) {
     write_vec3(at, ggx_visible_normals_sample(normals, u));
     outputs[at + 3u] = ggx_visible_normals_pdf(normals, wi);
     const vec2 inverse = ggx_visible_normals_invert(normals, wi);
