@@ -6,6 +6,8 @@ struct BaselineCylinder {
     vec3 s;
 };
 
-BaselineCylinder baseline_cylinder_prepare(Cylinder light) { return BaselineCylinder(light.axis.s); }
+BaselineCylinder baseline_cylinder_prepare(const Cylinder light) { return BaselineCylinder(light.axis.s); }
 
-LightSample baseline_cylinder_sample(BaselineCylinder self, vec2 u) { return LightSample(self.s, u.x + u.y, self.s); }
+LightSample baseline_cylinder_sample(const BaselineCylinder self, vec2 u) {
+    return LightSample(self.s, u.x + u.y, self.s);
+}

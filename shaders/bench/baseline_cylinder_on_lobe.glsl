@@ -2,8 +2,10 @@
 #include "bench/baseline_cylinder.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
-BaselineCylinder baseline_cylinder_on_lobe_prepare(Cylinder light, Ltc lobe) { return baseline_cylinder_prepare(light); }
+BaselineCylinder baseline_cylinder_on_lobe_prepare(const Cylinder light, const Ltc lobe) {
+    return baseline_cylinder_prepare(light);
+}
 
-LightSample baseline_cylinder_on_lobe_sample(BaselineCylinder self, vec2 u) {
+LightSample baseline_cylinder_on_lobe_sample(const BaselineCylinder self, vec2 u) {
     return baseline_cylinder_sample(self, u);
 }

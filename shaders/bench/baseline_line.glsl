@@ -6,6 +6,6 @@ struct BaselineLine {
     vec3 s;
 };
 
-BaselineLine baseline_line_prepare(LineSegment light) { return BaselineLine(light.s); }
+BaselineLine baseline_line_prepare(const LineSegment light) { return BaselineLine(light.s); }
 
-LightSample baseline_line_sample(BaselineLine self, float u) { return LightSample(self.s, u, self.s); }
+LightSample baseline_line_sample(const BaselineLine self, float u) { return LightSample(self.s, u, self.s); }

@@ -2,8 +2,10 @@
 #include "bench/baseline_line.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
-BaselineLine baseline_line_on_lobe_prepare(LineSegment light, Ltc lobe) { return baseline_line_prepare(light); }
+BaselineLine baseline_line_on_lobe_prepare(const LineSegment light, const Ltc lobe) {
+    return baseline_line_prepare(light);
+}
 
-LightSample baseline_line_on_lobe_sample(BaselineLine self, float u) {
+LightSample baseline_line_on_lobe_sample(const BaselineLine self, float u) {
     return baseline_line_sample(self, u);
 }

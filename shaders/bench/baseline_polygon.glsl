@@ -6,8 +6,8 @@ struct BaselinePolygon {
     vec3 normal;
 };
 
-BaselinePolygon baseline_polygon_prepare(ConvexPolygon light) { return BaselinePolygon(light.normal); }
+BaselinePolygon baseline_polygon_prepare(const ConvexPolygon light) { return BaselinePolygon(light.normal); }
 
-LightSample baseline_polygon_sample(BaselinePolygon self, vec2 u) {
+LightSample baseline_polygon_sample(const BaselinePolygon self, vec2 u) {
     return LightSample(self.normal, u.x + u.y, self.normal);
 }

@@ -2,8 +2,10 @@
 #include "bench/baseline_polygon.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
-BaselinePolygon baseline_polygon_on_lobe_prepare(ConvexPolygon light, Ltc lobe) { return baseline_polygon_prepare(light); }
+BaselinePolygon baseline_polygon_on_lobe_prepare(const ConvexPolygon light, const Ltc lobe) {
+    return baseline_polygon_prepare(light);
+}
 
-LightSample baseline_polygon_on_lobe_sample(BaselinePolygon self, vec2 u) {
+LightSample baseline_polygon_on_lobe_sample(const BaselinePolygon self, vec2 u) {
     return baseline_polygon_sample(self, u);
 }

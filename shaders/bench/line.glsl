@@ -5,6 +5,8 @@ Technique prepared(uint index, inout vec4 sum) {
     return technique_prepare(column_line(index, sum));
 }
 
-LightSample sample_of(Technique technique, inout uint state) { return technique_sample(technique, next_random(state)); }
+LightSample sample_of(const Technique technique, inout uint state) {
+    return technique_sample(technique, next_random(state));
+}
 
 #include "bench/run.glsl"

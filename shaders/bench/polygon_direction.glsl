@@ -5,7 +5,7 @@ Technique prepared(uint index, inout vec4 sum) {
     return technique_prepare(column_polygon(index, sum));
 }
 
-LightSample sample_of(Technique technique, inout uint state) {
+LightSample sample_of(const Technique technique, inout uint state) {
     const float u = next_random(state);
     return LightSample(technique_direction(technique, vec2(u, next_random(state))), 0.0, vec3(0.0));
 }

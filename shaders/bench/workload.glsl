@@ -22,4 +22,4 @@ float next_random(inout uint state) {
     return float(state >> 8) * 5.9604644775390625e-8;
 }
 
-vec4 summary(LightSample s) { return vec4(s.wi + s.p, s.pdf); }
+vec4 summary(const LightSample s) { return vec4(s.wi + s.p, s.pdf); }

@@ -2,7 +2,7 @@
 #include "parity/buffers.glsl"
 
 // The layout of nusselt::parity::DeviceOutputs.
-void write_outputs(LightSample s, float pdf, vec2 inverse, float measure) {
+void write_outputs(const LightSample s, float pdf, vec2 inverse, float measure) {
     write_vec3(0, s.wi);
     results[3] = s.pdf;
     write_vec3(4, s.p);

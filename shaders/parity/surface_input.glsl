@@ -9,7 +9,7 @@ SurfacePoint input_surface(uint begin) {
                         input_vec3(begin + 12u), input_at(begin + 15u));
 }
 
-SpecularFit fit_at(SurfacePoint point) {
+SpecularFit fit_at(const SurfacePoint point) {
     ivec3 samples = ivec3(word_at(6u), word_at(5u), word_at(4u));
     float cos_o = dot(point.normal, point.wo);
     LtcTableCell cell = ltc_table_cell(point.roughness, cos_o, mean_f0(point.f0), samples);
@@ -18,7 +18,7 @@ SpecularFit fit_at(SurfacePoint point) {
 }
 
 // Direction and distance mean nothing where the sample does not count.
-void write_sample(WorldLightSample s) {
+void write_sample(const WorldLightSample s) {
     bool counts = s.shadowed != vec3(0.0);
     write_vec3(0, counts ? s.direction : vec3(0.0));
     results[3] = counts ? s.distance : 0.0;

@@ -17,7 +17,7 @@ struct TableSums {
     float of_black, of_white;
 };
 
-TableSums table_sums(LtcTableCell cell, ivec3 samples) {
+TableSums table_sums(const LtcTableCell cell, ivec3 samples) {
     TableSums sums = TableSums(LtcTableEntry(vec3(0.0), vec3(0.0)), 0.0, 0.0);
     for (int corner = 0; corner < 8; ++corner) {
         ivec3 at = ltc_table_corner(cell, corner);

@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { DisplayRecord display; };
 const uint kGroupSize = kDisplayGroupSide * kDisplayGroupSide;
 shared vec2 group_errors[kGroupSize];
 
-vec3 mean_of(PixelSum sum, ShownSums shown, uint row) {
+vec3 mean_of(const PixelSum sum, const ShownSums shown, uint row) {
     float scale = row < shown.rows_ahead ? shown.scale_ahead : shown.scale;
     return scale * vec3(sum.sum[0], sum.sum[1], sum.sum[2]);
 }
@@ -49,7 +49,8 @@ vec3 error_colour(vec3 value, vec3 reference) {
     const float kDarkest = 0.005;
     vec3 difference = abs(value - reference);
     float relative = dot(difference, vec3(1.0)) / (dot(abs(reference), vec3(1.0)) + 3.0 * kDarkest);
-    const vec3 kRamp[5] = vec3[5](vec3(0.0), vec3(0.1, 0.1, 0.6), vec3(0.75, 0.15, 0.6), vec3(1.0, 0.6, 0.1), vec3(1.0));
+    const vec3 kRamp[5] = vec3[5](vec3(0.0), vec3(0.1, 0.1, 0.6), vec3(0.75, 0.15, 0.6), vec3(1.0, 0.6, 0.1),
+    vec3(1.0));
     bool is_small = relative < 1.0; // false for NaN
     float at = is_small ? 4.0 * clamp(1.0 + log2(max(relative, 1e-6)) / log2(1000.0), 0.0, 1.0) : 4.0;
     int cell = clamp(int(at), 0, 3);

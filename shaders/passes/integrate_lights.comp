@@ -27,7 +27,7 @@ void add_share(inout Reflected reflected, vec3 emission, vec3 share) {
 
 /// Adds what the surface reflects of a light.
 /// \param integrals over the light, of the diffuse and of the specular lobe
-void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
+void add_light(inout Reflected reflected, const LightRole role, vec2 integrals) {
     add_share(reflected, role.emission,
               integrals.x * reflected.glossy.diffuse_albedo + integrals.y * reflected.glossy.specular_albedo);
 }
@@ -37,7 +37,7 @@ void add_light(inout Reflected reflected, LightRole role, vec2 integrals) {
 #include "passes/lights/one_direction_integrals.glsl"
 #include "passes/lights/polygon_integrals.glsl"
 
-vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
+vec3 reflected_light(const Surface surface, ivec2 pixel, inout Counts counts) {
     if (kTechnique != kTechniqueLtcAnalytic) note_unknown_setting();
     Reflected reflected = Reflected(surface, make_reflection(surface).glossy, vec3(0.0), counts);
     ADD_ALL_LIGHTS

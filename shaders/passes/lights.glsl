@@ -28,7 +28,7 @@ struct AllKinds {
 };
 
 /// Radiance that a ray sees of a light. \param number among all lights of the scene
-vec3 light_emission(uint number, Ray ray) {
+vec3 light_emission(uint number, const Ray ray) {
 #define EMISSION_OF_ROW(kind, emission, add_lights) \
     if (is_of_kind(kind, number)) return emission(number - scene.lights[kind].first, ray);
     LIGHT_KINDS(EMISSION_OF_ROW)
@@ -41,7 +41,7 @@ vec3 light_emission(uint number, Ray ray) {
 #define ADD_ALL_LIGHTS LIGHT_KINDS(ADD_LIGHTS_OF_ROW)
 
 /// Radiance that a camera sees of lights themselves.
-vec3 emission_of(DrawnTriangle drawn, Ray ray) {
+vec3 emission_of(const DrawnTriangle drawn, const Ray ray) {
     int number = triangles[drawn.triangle].light;
     return number < 0 ? vec3(0.0) : light_emission(uint(number), ray);
 }

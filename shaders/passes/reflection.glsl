@@ -18,13 +18,13 @@ struct Reflection {
     GlossySurface glossy; ///< with a specular albedo of 0 where the surface has no lobe or the settings use none
 };
 
-BrdfComponents reflection_eval_components(Reflection self, vec3 wi) {
+BrdfComponents reflection_eval_components(const Reflection self, vec3 wi) {
     if (self.is_frostbite) return frostbite_eval_components(self.glossy.brdf, wi);
     if (self.is_phong) return lambert_phong_eval_components(self.lambert, self.phong, wi);
     return lambert_eval_components(self.lambert, wi);
 }
 
-vec3 reflection_eval(Reflection self, vec3 wi) {
+vec3 reflection_eval(const Reflection self, vec3 wi) {
     if (self.is_frostbite) return frostbite_eval(self.glossy.brdf, wi);
     vec3 value = lambert_eval(self.lambert, wi);
     if (self.is_phong) value += phong_eval(self.phong, wi);
@@ -48,13 +48,13 @@ LobeTable phong_lobes() {
                                                            scene.phong_lobe_samples[2]));
 }
 
-LtcTableEntry ltc_entry(ivec3 at, LobeTable table) {
+LtcTableEntry ltc_entry(ivec3 at, const LobeTable table) {
     int begin = 6 * (table.first + ltc_table_index(at, table.samples));
     return LtcTableEntry(vec3(ltc_table[begin], ltc_table[begin + 1], ltc_table[begin + 2]),
                          vec3(ltc_table[begin + 3], ltc_table[begin + 4], ltc_table[begin + 5]));
 }
 
-float ltc_albedo(ivec3 at, LobeTable table) {
+float ltc_albedo(ivec3 at, const LobeTable table) {
     return ltc_table[6 * (table.first + ltc_table_index(at, table.samples)) + 5];
 }
 
@@ -83,7 +83,7 @@ SpecularFit look_up_phong_fit(float exponent, float cos_o, vec3 albedo) {
     return phong_fit_of(sum, albedo);
 }
 
-Reflection make_reflection(Surface surface) {
+Reflection make_reflection(const Surface surface) {
     Reflection self;
     self.is_frostbite = kHasFrostbite && kBrdf != kBrdfLambert && surface.model == kModelFrostbite;
     self.is_phong = kHasPhong && kBrdf != kBrdfLambert && surface.model == kModelPhong;

@@ -52,7 +52,7 @@ bool is_visible(inout Estimate estimate, vec3 p) {
 }
 
 /// Traces the shadow ray of a sample and adds its contribution.
-void add_sample(inout Estimate estimate, DirectLightSample s) {
+void add_sample(inout Estimate estimate, const DirectLightSample s) {
     // The direction and the point are undefined where the density is 0.
     bool has_way = s.shadowed == vec3(0.0) || (is_finite(s.wi) && is_finite(s.p));
     if (!(has_way && is_finite(s.shadowed) && is_finite(s.constant))) {
@@ -66,7 +66,7 @@ void add_sample(inout Estimate estimate, DirectLightSample s) {
 }
 
 /// The contribution of a sample through all components of the BRDF, where it is the only technique.
-DirectLightSample reflect_sample(Reflection reflection, LightSample s) {
+DirectLightSample reflect_sample(const Reflection reflection, const LightSample s) {
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
     bool sampled = !(s.pdf == 0.0 || s.wi.z <= 0.0);
     vec3 shadowed = vec3(0.0);
@@ -81,7 +81,7 @@ struct TechniquePair {
 };
 
 /// \param integrals over the light, of the normalised components
-TechniquePair make_technique_pair(GlossySurface surface, vec2 integrals) {
+TechniquePair make_technique_pair(const GlossySurface surface, vec2 integrals) {
     DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, integrals.x, integrals.y,
                                                  1.0, 1.0);
     return TechniquePair(estimator, one_sample_choice_prepare(estimator.techniques));
@@ -89,7 +89,7 @@ TechniquePair make_technique_pair(GlossySurface surface, vec2 integrals) {
 
 /// The same for a light whose radiance varies.
 /// \param diffuse, specular integrals of the normalised components times radiance
-TechniquePair make_technique_pair(GlossySurface surface, vec3 diffuse, vec3 specular) {
+TechniquePair make_technique_pair(const GlossySurface surface, vec3 diffuse, vec3 specular) {
     DirectLight estimator = direct_light_prepare(surface.diffuse_albedo, surface.specular_albedo, 1.0, 1.0, 1.0, 1.0);
     estimator.techniques.unshadowed[0] *= diffuse;
     estimator.techniques.unshadowed[1] *= specular;
@@ -106,7 +106,7 @@ struct Draw {
 };
 
 /// \param pair the number of the pair of random numbers: that of the technique, unless a random number chooses it
-Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u) {
+Draw choose_technique(bool is_paired, const TechniquePair techniques, int pair, vec2 u) {
     if (!is_paired || frame.mis != kNusseltMisOneSample) return Draw(pair, u);
     OneSampleDecision decision = one_sample_choice_decide(techniques.choice, u.x);
     return Draw(decision.chosen, vec2(decision.u, u.y));
@@ -114,7 +114,8 @@ Draw choose_technique(bool is_paired, TechniquePair techniques, int pair, vec2 u
 
 /// \param components of the BRDF in the direction of the sample
 /// \param pdf        the densities of both techniques there
-DirectLightSample combine(TechniquePair techniques, BrdfComponents components, int technique, LightSample s, vec2 pdf) {
+DirectLightSample combine(const TechniquePair techniques, const BrdfComponents components, int technique,
+                          const LightSample s, vec2 pdf) {
     MisSample at = direct_light_densities_at(techniques.estimator, s, pdf.x, pdf.y, components);
     if (frame.mis == kNusseltMisOneSample)
         return direct_light_combined(s, one_sample_choice_estimate(techniques.choice, at));
@@ -142,7 +143,7 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
 #include "passes/lights/one_direction_samples.glsl"
 #include "passes/lights/polygon_samples.glsl"
 
-vec3 reflected_light(Surface surface, ivec2 pixel, inout Counts counts) {
+vec3 reflected_light(const Surface surface, ivec2 pixel, inout Counts counts) {
     Estimate reflected;
     reflected.surface = surface;
     reflected.reflection = make_reflection(surface);

@@ -14,7 +14,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Textures { TextureRecord te
 layout(set = 0, binding = 6, std430) readonly buffer TextureWords { uint texture_words[]; };
 layout(push_constant, std430) uniform Frame_ { FrameRecord frame; };
 
-vec3 to_vec(float v[3]) { return vec3(v[0], v[1], v[2]); }
+vec3 to_vec(const float v[3]) { return vec3(v[0], v[1], v[2]); }
 
 /// A drawn triangle.
 struct DrawnTriangle {
@@ -88,7 +88,7 @@ TriangleEdges triangle_edges(uint triangle) {
 }
 
 /// Barycentric coordinates where a ray meets a triangle. Rasterisation rounds, so the ray may narrowly miss it.
-vec2 barycentrics(DrawnTriangle drawn, TriangleEdges edges, Ray ray) {
+vec2 barycentrics(const DrawnTriangle drawn, const TriangleEdges edges, const Ray ray) {
     vec3 e1 = world_vector(drawn.instance, edges.e1);
     vec3 e2 = world_vector(drawn.instance, edges.e2);
     vec3 from_v0 = ray.origin - world_point(drawn.instance, edges.v0);

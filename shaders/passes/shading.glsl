@@ -49,7 +49,7 @@ struct Counts {
     uint rejected_samples;
 };
 
-void add_counts(Counts counts) {
+void add_counts(const Counts counts) {
     if (counts.shadow_rays > 0u) {
         uint before = atomicAdd(work.shadow_rays[0], counts.shadow_rays);
         if (before + counts.shadow_rays < before) atomicAdd(work.shadow_rays[1], 1u);

@@ -25,14 +25,14 @@ struct ShadowRay {
 bool is_in_ray_range(vec3 v) { return all(lessThanEqual(abs(v), vec3(kLargestRayCoordinate))); }
 
 /// Rays that are not valid count as blocked, as on the CPU, so that no light comes from nowhere.
-bool is_valid(ShadowRay ray) {
+bool is_valid(const ShadowRay ray) {
     return is_in_ray_range(ray.origin) && is_in_ray_range(ray.direction) && ray.t_far >= 0.0 &&
            largest_component(ray.direction) >= kSmallestRayDirection;
 }
 
 /// Whether a ray meets a surface with this alpha. Each pair of a ray and a triangle decides on its own; for triangles of the
 /// world, the decision is that of src/visibility/embree_scene.cpp.
-bool meets_surface(ShadowRay ray, uint triangle, uint instance, float alpha) {
+bool meets_surface(const ShadowRay ray, uint triangle, uint instance, float alpha) {
     uvec4 place = pcg4d(uvec4(floatBitsToUint(ray.origin), triangle));
     uvec4 way = uvec4(floatBitsToUint(ray.direction), instance);
     return to_unit(pcg4d(place ^ way).x) < alpha;

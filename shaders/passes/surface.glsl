@@ -73,7 +73,8 @@ Tangents position_derivatives(vec2 du, vec2 dv, vec3 e1, vec3 e2, vec3 n) {
 
 /// The tangents that pbrt v3 uses instead on meshes with normals: orthonormal in the object, and both reversed.
 /// \param metric the tangents of other meshes
-Tangents tangents_in_uv(DrawnTriangle drawn, TriangleEdges edges, vec2 at, vec2 du, vec2 dv, vec3 n, Tangents metric) {
+Tangents tangents_in_uv(const DrawnTriangle drawn, const TriangleEdges edges, vec2 at, vec2 du, vec2 dv, vec3 n,
+                        const Tangents metric) {
     vec3 normal = nusselt_normalize(mesh_normal(drawn.triangle, at));
     if (!(dot(normal, normal) > 0.5)) return metric;
     float determinant = du.x * dv.y - dv.x * du.y;
@@ -87,7 +88,8 @@ Tangents tangents_in_uv(DrawnTriangle drawn, TriangleEdges edges, vec2 at, vec2 
 /// A normal perturbed by the normal map or the bump map; docs/materials.md has the formulas.
 /// \param n     unit, on the front side
 /// \param world edges from the first vertex, in the world
-vec3 perturbed_normal(DrawnTriangle drawn, TriangleEdges edges, TriangleEdges world, MaterialRecord material, vec2 at,
+vec3 perturbed_normal(const DrawnTriangle drawn, const TriangleEdges edges, const TriangleEdges world,
+                      const MaterialRecord material, vec2 at,
                       vec2 uv, vec3 n) {
     VertexRecord a = vertices[triangles[drawn.triangle].vertex[0]];
     VertexRecord b = vertices[triangles[drawn.triangle].vertex[1]];
@@ -124,11 +126,11 @@ vec3 perturbed_normal(DrawnTriangle drawn, TriangleEdges edges, TriangleEdges wo
 vec3 visible_normal(vec3 n, vec3 wo) { return nusselt_normalize(n + nusselt_max(kSmallestEyeCosine - dot(n, wo), 0.0) * wo); }
 
 /// Factors above 1 brighten dark images, but reflectances must not exceed 1.
-vec3 times_texture(vec3 factor, TextureLookup lookup, vec2 uv) {
+vec3 times_texture(vec3 factor, const TextureLookup lookup, vec2 uv) {
     return nusselt_min(factor * look_up_texture(lookup.texture, lookup_place(lookup, uv)), vec3(1.0));
 }
 
-void look_up_material(inout Surface surface, MaterialRecord material, vec2 uv) {
+void look_up_material(inout Surface surface, const MaterialRecord material, vec2 uv) {
     surface.model = material.model;
     surface.diffuse = to_vec(material.diffuse);
     surface.f0 = to_vec(material.f0);
@@ -144,7 +146,7 @@ void look_up_material(inout Surface surface, MaterialRecord material, vec2 uv) {
 
 /// \param drawn a surface
 /// \param ray   a camera ray that hits it
-Surface make_surface(DrawnTriangle drawn, Ray ray) {
+Surface make_surface(const DrawnTriangle drawn, const Ray ray) {
     vec3 wo = -nusselt_normalize(ray.direction);
     TriangleEdges edges = triangle_edges(drawn.triangle);
     vec2 at = barycentrics(drawn, edges, ray);

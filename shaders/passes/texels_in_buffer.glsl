@@ -4,7 +4,7 @@
 
 #include "passes/scene.glsl"
 
-uint code_at(TextureRecord texture_record, uint index) {
+uint code_at(const TextureRecord texture_record, uint index) {
     uint in_word = index & ((1u << texture_record.packing) - 1u);
     uint bits = 32u >> texture_record.packing;
     uint word = texture_words[texture_record.first_code + (index >> texture_record.packing)];
@@ -13,7 +13,7 @@ uint code_at(TextureRecord texture_record, uint index) {
 
 /// \param number of the texture
 /// \returns for grey textures the code as x
-uvec3 texel_codes(uint number, TextureRecord texture_record, int column, int row) {
+uvec3 texel_codes(uint number, const TextureRecord texture_record, int column, int row) {
     uint texel = uint(row) * uint(texture_record.width) + uint(column);
     uint index = uint(texture_record.channels) * texel;
     uint red = code_at(texture_record, index);

@@ -10,7 +10,7 @@
 layout(set = 1, binding = 0) uniform utexture2D texture_images[];
 
 /// \copydoc texel_codes of texels_in_buffer.glsl.
-uvec3 texel_codes(uint number, TextureRecord texture_record, int column, int row) {
+uvec3 texel_codes(uint number, const TextureRecord texture_record, int column, int row) {
     return texelFetch(texture_images[nonuniformEXT(number)], ivec2(column, row), 0).xyz;
 }
 

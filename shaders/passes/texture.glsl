@@ -22,7 +22,7 @@ struct TexelPair {
     float coverage; ///< fraction of both that lies within the texture
 };
 
-TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
+TexelPair texel_pair(float coordinate, int size, const TextureRecord texture_record) {
     float count = float(size);
     float last = count - 1.0;
     // Coordinates that overflowed in the scene file or in interpolation count as 0.
@@ -41,11 +41,11 @@ TexelPair texel_pair(float coordinate, int size, TextureRecord texture_record) {
 }
 
 /// One channel of a texel.
-float decoded(TextureRecord texture_record, uint code) {
+float decoded(const TextureRecord texture_record, uint code) {
     return uintBitsToFloat(texture_record.packing == 0u ? code : texture_words[texture_record.first_value + code]);
 }
 
-vec3 texel_at(uint number, TextureRecord texture_record, int column, int row) {
+vec3 texel_at(uint number, const TextureRecord texture_record, int column, int row) {
     uvec3 codes = texel_codes(number, texture_record, column, row);
     float red = decoded(texture_record, codes.x);
     if (texture_record.channels == 1) return vec3(red);
@@ -66,7 +66,7 @@ vec3 look_up_texture(uint number, vec2 uv) {
 }
 
 /// The place at which a surface with these texture coordinates looks up a texture.
-vec2 lookup_place(TextureLookup lookup, vec2 uv) {
+vec2 lookup_place(const TextureLookup lookup, vec2 uv) {
     return vec2(lookup.scale[0] * uv.x + lookup.offset[0], lookup.scale[1] * uv.y + lookup.offset[1]);
 }
 
@@ -82,7 +82,7 @@ vec2 height_derivatives(uint number, vec2 uv) {
 }
 
 /// The probability that a ray meets a surface.
-float alpha_of(MaterialRecord material, vec2 uv) {
+float alpha_of(const MaterialRecord material, vec2 uv) {
     if ((kTextureKinds & material.texture_kinds & kAlphaTexture) == 0u) return material.alpha;
     vec2 at = lookup_place(material.alpha_texture, uv);
     return material.alpha * look_up_texture(material.alpha_texture.texture, at).x;

@@ -58,7 +58,7 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_far) {
 /// More than the rounding errors of the box test and of shearing, relative to the distance; division may err by 2.5 ulp.
 const float kBvhSlack = 1.0 + 16.0 * kNusseltEpsilon;
 
-bool hits_box(BvhRay ray, BvhNode node) {
+bool hits_box(const BvhRay ray, const BvhNode node) {
     vec3 a = (vec3(node.lower[0], node.lower[1], node.lower[2]) - ray.origin) * ray.inverse;
     vec3 b = (vec3(node.upper[0], node.upper[1], node.upper[2]) - ray.origin) * ray.inverse;
     vec3 low = min(a, b);
@@ -70,7 +70,7 @@ bool hits_box(BvhRay ray, BvhNode node) {
 
 /// A corner relative to the origin, in coordinates in which the ray is the z-axis: the same for all triangles that share
 /// the corner.
-vec3 sheared(BvhRay ray, vec3 corner) {
+vec3 sheared(const BvhRay ray, vec3 corner) {
     precise vec3 p = corner - ray.origin;
     precise vec3 q = vec3(ray.x_axis.x * p.x + ray.x_axis.y * p.y + ray.x_axis.z * p.z,
                           ray.y_axis.x * p.x + ray.y_axis.y * p.y + ray.y_axis.z * p.z,
@@ -86,7 +86,7 @@ float edge_side(vec3 a, vec3 b) {
 }
 
 /// \param barycentrics weights of the second and third corner; only for hits
-bool hits_triangle(BvhRay ray, BvhTriangle triangle, out vec2 barycentrics) {
+bool hits_triangle(const BvhRay ray, const BvhTriangle triangle, out vec2 barycentrics) {
     vec3 a = sheared(ray, vec3(triangle.corner[0], triangle.corner[1], triangle.corner[2]));
     vec3 b = sheared(ray, vec3(triangle.corner[3], triangle.corner[4], triangle.corner[5]));
     vec3 c = sheared(ray, vec3(triangle.corner[6], triangle.corner[7], triangle.corner[8]));
@@ -104,7 +104,7 @@ bool hits_triangle(BvhRay ray, BvhTriangle triangle, out vec2 barycentrics) {
 }
 
 /// \param number of an instance, 0 is the world
-BvhRay ray_in_space(ShadowRay ray, uint number) {
+BvhRay ray_in_space(const ShadowRay ray, uint number) {
     if (number == 0u) return bvh_ray(ray.origin, ray.direction, ray.t_far);
     float m[12] = bvh_instances[number].object_from_world;
     mat3 linear = mat3(m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]);
@@ -115,7 +115,7 @@ BvhRay ray_in_space(ShadowRay ray, uint number) {
 /// together.
 /// \param node where to begin; afterwards the node that follows the leaf
 /// \returns the link of the leaf, kBvhInner if none follows
-uint next_leaf(BvhRay ray, inout uint node, uint end) {
+uint next_leaf(const BvhRay ray, inout uint node, uint end) {
     uint leaf = kBvhInner;
     while (node < end && leaf == kBvhInner) {
         uint link = bvh_nodes[node].link;
@@ -132,7 +132,7 @@ uint next_leaf(BvhRay ray, inout uint node, uint end) {
 
 /// \param local the ray where the leaf is
 /// \param index first triangle of a leaf
-bool hits_leaf(ShadowRay ray, BvhRay local, uint index, uint instance) {
+bool hits_leaf(const ShadowRay ray, const BvhRay local, uint index, uint instance) {
     bool hits = false;
     uint number;
     do {

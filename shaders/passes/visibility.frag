@@ -10,7 +10,7 @@ layout(location = 1) flat in vec4 plane;
 layout(location = 2) flat in vec2 distances;
 layout(location = 0) out uint number;
 
-bool is_there(Ray ray) {
+bool is_there(const Ray ray) {
     DrawnTriangle drawn = drawn_triangle(drawn_number);
     if (!drawn.is_surface) return true;
     MaterialRecord material = materials[triangles[drawn.triangle].material];

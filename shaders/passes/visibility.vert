@@ -23,7 +23,7 @@ float distance_along_rays(vec3 p) {
     return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3];
 }
 
-vec3 from_camera(DrawnTriangle drawn, uint corner) {
+vec3 from_camera(const DrawnTriangle drawn, uint corner) {
     uint vertex = triangles[drawn.triangle].vertex[corner];
     return world_point(drawn.instance, vertex_position(vertex)) - to_vec(scene.origin);
 }

@@ -61,9 +61,9 @@ Frostbite frostbite_prepare(vec3 wo, vec3 albedo, vec3 f0, float roughness) {
 
 /// F90 - 1.
 /// \param cos2 squared cosine between the half vector and either direction.
-float frostbite_retroreflection(Frostbite self, float cos2) { return self.roughness * (0.5 + 2.0 * cos2) - 1.0; }
+float frostbite_retroreflection(const Frostbite self, float cos2) { return self.roughness * (0.5 + 2.0 * cos2) - 1.0; }
 
-vec3 frostbite_diffuse(Frostbite self, vec3 wi, FrostbiteHalfVector h) {
+vec3 frostbite_diffuse(const Frostbite self, vec3 wi, const FrostbiteHalfVector h) {
     if (!(self.wo.z > 0.0 && wi.z > 0.0)) return vec3(0.0);
     float bias = frostbite_retroreflection(self, h.cos2);
     float scatter_i = 1.0 + bias * fifth_power_of_complement(wi.z);
@@ -71,7 +71,7 @@ vec3 frostbite_diffuse(Frostbite self, vec3 wi, FrostbiteHalfVector h) {
     return (scatter_i * scatter_o) * self.diffuse;
 }
 
-vec3 frostbite_specular(Frostbite self, vec3 wi, FrostbiteHalfVector h) {
+vec3 frostbite_specular(const Frostbite self, vec3 wi, const FrostbiteHalfVector h) {
     if (!(self.wo.z > 0.0 && wi.z > 0.0)) return vec3(0.0);
     float distribution = ggx_distribution(ggx_ratio(h.sum, self.alpha2), self.alpha2);
     float denominator = wi.z * self.slant_o + self.wo.z * frostbite_slant(wi.z, self.alpha2);
@@ -80,19 +80,19 @@ vec3 frostbite_specular(Frostbite self, vec3 wi, FrostbiteHalfVector h) {
     return (distribution * visibility) * (self.f0 + (vec3(1.0) - self.f0) * grazing);
 }
 
-BrdfComponents frostbite_eval_components(Frostbite self, vec3 wi) {
+BrdfComponents frostbite_eval_components(const Frostbite self, vec3 wi) {
     FrostbiteHalfVector h = frostbite_half_vector(self.wo + wi);
     return BrdfComponents(frostbite_diffuse(self, wi, h), frostbite_specular(self, wi, h));
 }
 
-vec3 frostbite_eval(Frostbite self, vec3 wi) {
+vec3 frostbite_eval(const Frostbite self, vec3 wi) {
     BrdfComponents components = frostbite_eval_components(self, wi);
     return components.diffuse + components.specular;
 }
 
 /// Estimate of the directional albedo of the diffuse part, for coefficients of multiple importance sampling: off by at
 /// most 5 %. The half vector is taken to be at 45 degrees from either direction.
-vec3 frostbite_diffuse_albedo(Frostbite self) {
+vec3 frostbite_diffuse_albedo(const Frostbite self) {
     float bias = frostbite_retroreflection(self, 0.5);
     // The mean of (1 - wi.z)^5 under the cosine is 1 / 21.
     float scatter = (1.0 + bias * (1.0 / 21.0)) * (1.0 + bias * self.grazing_o);
@@ -100,12 +100,12 @@ vec3 frostbite_diffuse_albedo(Frostbite self) {
 }
 
 /// The diffuse part of frostbite_eval().
-vec3 frostbite_eval_diffuse(Frostbite self, vec3 wi) {
+vec3 frostbite_eval_diffuse(const Frostbite self, vec3 wi) {
     return frostbite_diffuse(self, wi, frostbite_half_vector(self.wo + wi));
 }
 
 /// The specular part of frostbite_eval().
-vec3 frostbite_eval_specular(Frostbite self, vec3 wi) {
+vec3 frostbite_eval_specular(const Frostbite self, vec3 wi) {
     return frostbite_specular(self, wi, frostbite_half_vector(self.wo + wi));
 }
 

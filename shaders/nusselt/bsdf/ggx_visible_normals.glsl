@@ -69,7 +69,7 @@ GgxVisibleNormals ggx_bounded_visible_normals_prepare(vec3 wo, float alpha) {
 }
 
 /// \param u in [0, 1)^2; x turns around the normal, y leads away from it. Continuous, also from x = 1 to x = 0.
-vec3 ggx_visible_normals_sample(GgxVisibleNormals self, vec2 u) {
+vec3 ggx_visible_normals_sample(const GgxVisibleNormals self, vec2 u) {
     bool first_half = u.x < 0.5;
     SinCos azimuth = sincos_half_turn(2.0 * kNusseltPi * (first_half ? u.x : 1.0 - u.x));
     float sine = first_half ? azimuth.sine : -azimuth.sine;
@@ -82,13 +82,13 @@ vec3 ggx_visible_normals_sample(GgxVisibleNormals self, vec2 u) {
 }
 
 /// The height, above the direction opposite to the stretched wo, of the point of the cap that gives a half vector.
-float ggx_visible_normals_height_of(GgxVisibleNormals self, vec3 h, float ratio) {
+float ggx_visible_normals_height_of(const GgxVisibleNormals self, vec3 h, float ratio) {
     return self.alpha * self.alpha * ratio * h.z * self.inverse_length;
 }
 
 /// Density of samples [1/sr], at most 1.6e11; 0 where they cannot lead.
 /// \param wi unit direction.
-float ggx_visible_normals_pdf(GgxVisibleNormals self, vec3 wi) {
+float ggx_visible_normals_pdf(const GgxVisibleNormals self, vec3 wi) {
     vec3 h = self.wo + wi;
     float ratio = ggx_ratio(h, self.alpha * self.alpha);
     // All directions above the surface are in the cap, despite rounding.
@@ -98,7 +98,7 @@ float ggx_visible_normals_pdf(GgxVisibleNormals self, vec3 wi) {
 
 /// The random numbers for which the sample is wi; anything in [0, 1)^2 where there are none.
 /// \param wi unit direction.
-vec2 ggx_visible_normals_invert(GgxVisibleNormals self, vec3 wi) {
+vec2 ggx_visible_normals_invert(const GgxVisibleNormals self, vec3 wi) {
     vec3 h = self.wo + wi;
     float ratio = ggx_ratio(h, self.alpha * self.alpha);
     float y = ratio * h.y - self.wo.y;

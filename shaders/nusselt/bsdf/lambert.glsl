@@ -11,9 +11,9 @@ struct Lambert {
 
 /// The BRDF, without the cosine [1/sr]: albedo / pi.
 /// \param wi unit direction to the light in shading space; 0 where wi.z <= 0.
-vec3 lambert_eval(Lambert self, vec3 wi) { return (wi.z > 0.0 ? 0.318309886183791 : 0.0) * self.albedo; }
+vec3 lambert_eval(const Lambert self, vec3 wi) { return (wi.z > 0.0 ? 0.318309886183791 : 0.0) * self.albedo; }
 
-BrdfComponents lambert_eval_components(Lambert self, vec3 wi) {
+BrdfComponents lambert_eval_components(const Lambert self, vec3 wi) {
     return BrdfComponents(lambert_eval(self, wi), vec3(0.0));
 }
 

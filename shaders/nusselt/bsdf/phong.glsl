@@ -28,7 +28,7 @@ Phong phong_prepare(vec3 wo, vec3 albedo, float exponent) {
 
 /// The BRDF, without the cosine [1/sr].
 /// \param wi unit direction to the light in shading space; 0 where wi.z <= 0 or wo.z <= 0.
-vec3 phong_eval(Phong self, vec3 wi) {
+vec3 phong_eval(const Phong self, vec3 wi) {
     // The cross product keeps the precision that the cosine loses for narrow lobes.
     vec3 across = nusselt_cross(self.mirror, wi);
     float cosine = dot(self.mirror, wi);
@@ -39,7 +39,7 @@ vec3 phong_eval(Phong self, vec3 wi) {
 }
 
 /// A Phong lobe above a Lambertian base.
-BrdfComponents lambert_phong_eval_components(Lambert lambert, Phong phong, vec3 wi) {
+BrdfComponents lambert_phong_eval_components(const Lambert lambert, const Phong phong, vec3 wi) {
     return BrdfComponents(lambert_eval(lambert, wi), phong_eval(phong, wi));
 }
 

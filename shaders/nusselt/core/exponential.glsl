@@ -20,7 +20,7 @@ float doubled_artanh(float z) {
 
 /// -log(cosine) of an angle in [0, pi / 2], accurate relative to itself also for small angles; at least 34 and finite
 /// for the right angle.
-float negative_log_of_cosine(SinCos angle) {
+float negative_log_of_cosine(const SinCos angle) {
     float squared = angle.sine * angle.sine;
     if (squared <= 0.5) return 0.5 * doubled_artanh(squared / (2.0 - squared));
     float cosine = nusselt_max(angle.cosine, 1e-15);

@@ -21,11 +21,11 @@ Frame frame_from_normal(vec3 normal) {
                  vec3(c, nusselt_fma(normal.y * normal.y, a, sgn), -normal.y), normal);
 }
 
-vec3 frame_to_local(Frame self, vec3 world) {
+vec3 frame_to_local(const Frame self, vec3 world) {
     return vec3(dot(self.t, world), dot(self.b, world), dot(self.n, world));
 }
 
-vec3 frame_to_world(Frame self, vec3 local) {
+vec3 frame_to_world(const Frame self, vec3 local) {
     return local.x * self.t + local.y * self.b + local.z * self.n;
 }
 

@@ -31,7 +31,7 @@ struct LightPlane {
 };
 
 /// Distance of the light along a unit direction that hits it, never farther than its farthest vertex.
-float light_plane_distance_along(LightPlane self, vec3 wi) {
+float light_plane_distance_along(const LightPlane self, vec3 wi) {
     float cosine = dot(self.normal, wi);
     if (!(cosine * self.distance > 0.0)) return self.farthest;
     return nusselt_min(self.distance / cosine, self.farthest);

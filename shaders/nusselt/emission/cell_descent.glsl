@@ -8,7 +8,7 @@
 #include "../emission/textured_light.glsl"
 
 /// The integrand of projected solid angles over a texture, up to a factor: zero below the horizon.
-float relative_cosine(TexturePlane plane, float x, float y) {
+float relative_cosine(const TexturePlane plane, float x, float y) {
     vec3 p = nusselt_fma(x, plane.side_x, nusselt_fma(y, plane.side_y, plane.corner));
     float squared = nusselt_max(dot(p, p), kNusseltTiny);
     return (nusselt_max(p.z, 0.0) / squared) / squared;
@@ -17,7 +17,7 @@ float relative_cosine(TexturePlane plane, float x, float y) {
 /// The weights of the parts of element (i, j) of a grid, in the order (0, 0), (1, 0), (0, 1), (1, 1). Those that do not
 /// exist weigh nothing.
 /// \param parts pyramid_parts_of()
-vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, ivec2 at, ivec2 parts) {
+vec4 lit_parts(uint light, const PyramidShape shape, const TexturePlane plane, int level, ivec2 at, ivec2 parts) {
     uint below = light + textured_light_word(light + kNusseltGrids + uint(level - 1));
     uint count = uint(parts.x * parts.y);
     uint first = below + count * uint(at.y * pyramid_size_of(shape, level).x + at.x);
@@ -50,7 +50,7 @@ vec4 lit_parts(uint light, PyramidShape shape, TexturePlane plane, int level, iv
 }
 
 /// Descends from a cell to a texel. With one random number per direction, the order of texels in each direction stays.
-TexelChoice choose_texel(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
+TexelChoice choose_texel(uint light, const TexturePlane plane, ivec2 cell, vec2 u) {
     PyramidShape shape = textured_light_shape(light);
     TexelChoice choice = TexelChoice(cell, 1.0, u);
     for (int level = shape.levels - 1; level > 0; --level) {
@@ -63,7 +63,7 @@ TexelChoice choose_texel(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
 
 /// The probability of a texel given its cell, and the random numbers that lead there.
 /// \param choice with the texel, and with the random numbers inside of it.
-TexelChoice ascend_from_texel(uint light, TexturePlane plane, TexelChoice choice) {
+TexelChoice ascend_from_texel(uint light, const TexturePlane plane, TexelChoice choice) {
     PyramidShape shape = textured_light_shape(light);
     choice.probability = 1.0;
     for (int level = 1; level < shape.levels; ++level) {

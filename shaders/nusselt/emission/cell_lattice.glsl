@@ -22,7 +22,7 @@ struct LatticeHorizon {
 };
 
 /// \param plane that the horizon cuts between corners of the texture.
-LatticeHorizon lattice_horizon_prepare(TexturePlane plane, uint light) {
+LatticeHorizon lattice_horizon_prepare(const TexturePlane plane, uint light) {
     const float least = 8.673617379884035e-19; // 2^-60
     LatticeHorizon self;
     vec2 rise = vec2(plane.side_x.z, plane.side_y.z);
@@ -68,17 +68,17 @@ LatticeHorizon lattice_horizon_prepare(TexturePlane plane, uint light) {
 }
 
 /// Height of the corner of a cell with the least texture coordinates.
-float lattice_horizon_height(LatticeHorizon self, int column, int row) {
+float lattice_horizon_height(const LatticeHorizon self, int column, int row) {
     return nusselt_fma(lattice_position(column), self.slope.x, self.height + lattice_position(row) * self.slope.y);
 }
 
 /// Whether some part of a cell is above the horizon.
-bool lattice_horizon_reaches_above(LatticeHorizon self, int column, int row) {
+bool lattice_horizon_reaches_above(const LatticeHorizon self, int column, int row) {
     return lattice_horizon_height(self, column, row) > -self.to_highest;
 }
 
 /// The term of the side of a cell along the horizon; 0 if the horizon does not cut the cell.
-float lattice_horizon_term(LatticeHorizon self, int column, int row) {
+float lattice_horizon_term(const LatticeHorizon self, int column, int row) {
     float z = lattice_horizon_height(self, column, row);
     if (!(z < -self.to_lowest && z > -self.to_highest)) return 0.0;
     float left = (lattice_position(column) - self.begin.x) * self.inverse.x;
@@ -101,7 +101,7 @@ struct CellLattice {
 
 /// \param plane of the light in shading space, or in the cosine space of a lobe, with coordinates of order one.
 /// \param light first word.
-CellLattice cell_lattice_prepare(TexturePlane plane, uint light) {
+CellLattice cell_lattice_prepare(const TexturePlane plane, uint light) {
     CellLattice self;
     self.plane = plane;
     self.light = light;
@@ -119,14 +119,14 @@ CellLattice cell_lattice_prepare(TexturePlane plane, uint light) {
 }
 
 /// Line i of those along y. Positions on it begin at its lowest texture coordinate.
-TermLine cell_lattice_column_line(CellLattice self, int i) {
+TermLine cell_lattice_column_line(const CellLattice self, int i) {
     vec2 chord = self.length_y * textured_light_column_line(self.light, i);
     vec3 q = nusselt_fma(lattice_position(i), self.plane.side_x, self.plane.corner);
     return make_term_line(q, self.direction_y, chord.x, chord.y);
 }
 
 /// Line j of those along x.
-TermLine cell_lattice_row_line(CellLattice self, int j) {
+TermLine cell_lattice_row_line(const CellLattice self, int j) {
     vec2 chord = self.length_x * textured_light_row_line(self.light, j);
     vec3 q = nusselt_fma(lattice_position(j), self.plane.side_y, self.plane.corner);
     return make_term_line(q, self.direction_x, chord.x, chord.y);
@@ -134,7 +134,7 @@ TermLine cell_lattice_row_line(CellLattice self, int j) {
 
 /// The Taylor series of the cosine around the centre up to the second order, and the mean height over the corners and the
 /// centre for cells that the horizon cuts.
-void cell_lattice_find_far_angles(CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
+void cell_lattice_find_far_angles(const CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
     const float s = 1.0 / float(kNusseltCells);
     vec2 rise = 0.5 * s * vec2(self.plane.side_x.z, self.plane.side_y.z);
     float area = abs(self.signed_distance) * s * s *
@@ -159,7 +159,7 @@ void cell_lattice_find_far_angles(CellLattice self, inout float angle[kNusseltCe
 }
 
 /// Terms of the pieces of the outline.
-void cell_lattice_add_outline(CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
+void cell_lattice_add_outline(const CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
     int pieces = textured_light_pieces(self.light);
     int edge = -1;
     TermLine along = TermLine(0.0, 0.0, 0.0, 0.0, 0.0);
@@ -180,7 +180,7 @@ void cell_lattice_add_outline(CellLattice self, inout float angle[kNusseltCells 
 }
 
 /// \param angle zeros.
-void cell_lattice_find_near_angles(CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
+void cell_lattice_find_near_angles(const CellLattice self, inout float angle[kNusseltCells * kNusseltCells]) {
     cell_lattice_add_outline(self, angle);
     TermLine columns[kNusseltCells + 1];
     NUSSELT_UNROLL for (int i = 0; i <= kNusseltCells; ++i) columns[i] = cell_lattice_column_line(self, i);
@@ -218,7 +218,7 @@ void cell_lattice_find_near_angles(CellLattice self, inout float angle[kNusseltC
 /// Projected solid angles [sr] of the parts of all cells that are above the horizon and inside of the light. They are
 /// never zero where the light is: at least as large as their rounding errors.
 /// \param angle 8 x 8 of them, in the order of cells: cell (i, j) has the index 8 j + i.
-void cell_lattice_find_angles(CellLattice self, out float angle[kNusseltCells * kNusseltCells]) {
+void cell_lattice_find_angles(const CellLattice self, out float angle[kNusseltCells * kNusseltCells]) {
     const float far = 1.0 / 16.0; // kFarIfCut of C++ for float; kFar is 1
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) angle[cell] = 0.0;
     if (self.signed_distance == 0.0 || !(self.highest > 0.0)) return;

@@ -15,15 +15,15 @@ struct SumStep {
     float before, after, total;
 };
 
-float sum_step_probability(SumStep self) {
+float sum_step_probability(const SumStep self) {
     return self.total > 0.0 ? (self.after - self.before) / self.total : 0.0;
 }
 /// What is left of the random number behind a target.
-float sum_step_rest(SumStep self, float target) {
+float sum_step_rest(const SumStep self, float target) {
     return below_one((target - self.before) / nusselt_max(self.after - self.before, kNusseltSmallestNormal));
 }
 /// What sum_step_rest() undoes.
-float sum_step_united(SumStep self, float u) {
+float sum_step_united(const SumStep self, float u) {
     return self.total > 0.0 ? below_one((self.before + u * (self.after - self.before)) / self.total) : 0.0;
 }
 
@@ -35,7 +35,7 @@ struct CellChoice {
     SumStep x, y;      ///< of columns and of cells of the column
 };
 
-int cell_choice_index(CellChoice self) { return self.at.y * kNusseltCells + self.at.x; }
+int cell_choice_index(const CellChoice self) { return self.at.y * kNusseltCells + self.at.x; }
 
 /// Running sums of the weights of cells.
 struct CellSums {
@@ -96,7 +96,7 @@ CellChoice cell_sums_choose(CellSums self, vec2 u) {
 }
 
 /// A cell by its column and row.
-CellChoice cell_sums_cell(CellSums self, ivec2 at) {
+CellChoice cell_sums_cell(const CellSums self, ivec2 at) {
     CellChoice cell;
     cell.at = at;
     cell.x = cell_sums_column_step(self, at.x);
@@ -108,13 +108,13 @@ CellChoice cell_sums_cell(CellSums self, ivec2 at) {
 
 /// The cell at a point of the lattice.
 /// \param at in [0, 1)^2.
-CellChoice cell_sums_at(CellSums self, vec2 at) {
+CellChoice cell_sums_at(const CellSums self, vec2 at) {
     return cell_sums_cell(self, clamp(ivec2(at * float(kNusseltCells)), ivec2(0), ivec2(kNusseltCells - 1)));
 }
 
 /// What cell_sums_choose() undoes.
 /// \param u in the cell.
-vec2 cell_choice_united(CellChoice self, vec2 u) {
+vec2 cell_choice_united(const CellChoice self, vec2 u) {
     return vec2(sum_step_united(self.x, u.x), sum_step_united(self.y, u.y));
 }
 

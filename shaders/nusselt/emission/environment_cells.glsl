@@ -20,7 +20,7 @@ struct EnvironmentCells {
     vec3 unshadowed; ///< the radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]
 };
 
-EnvironmentCells environment_cells_prepare(uint map, Frame frame, float lowest) {
+EnvironmentCells environment_cells_prepare(uint map, const Frame frame, float lowest) {
     EnvironmentCells self;
     self.map = map;
     self.frame = frame;
@@ -54,7 +54,7 @@ void environment_cells_finish(inout EnvironmentCells self, float per_albedo) {
 }
 
 /// An estimate of the integral of radiance, averaged over channels, times the factor.
-float environment_cells_measure(EnvironmentCells self) {
+float environment_cells_measure(const EnvironmentCells self) {
     return kNusseltCellAngle * (self.sums.total / environment_map_scale(self.map));
 }
 
@@ -65,20 +65,21 @@ float environment_cells_position(int i, float inside, float step_size) {
 }
 
 /// The position of a point in its texel.
-vec2 environment_cells_inside(EnvironmentCells self, ivec2 texel, vec2 at) {
+vec2 environment_cells_inside(const EnvironmentCells self, ivec2 texel, vec2 at) {
     return at * float(environment_map_size(self.map)) - vec2(texel);
 }
 
 /// The texel of a point.
 /// \param at in [0, 1)^2.
-TexelChoice environment_cells_texel_at(EnvironmentCells self, vec2 at) {
+TexelChoice environment_cells_texel_at(const EnvironmentCells self, vec2 at) {
     int size = environment_map_size(self.map);
     return TexelChoice(clamp(ivec2(at * float(size)), ivec2(0), ivec2(size - 1)), 1.0, vec2(0.0));
 }
 
 /// The density of a point in a texel with this probability [1/sr].
 /// \param wi the direction of the point.
-float environment_cells_density(EnvironmentCells self, float probability, ivec2 texel, BilinearTexel interpolant,
+float environment_cells_density(const EnvironmentCells self, float probability, ivec2 texel,
+                                const BilinearTexel interpolant,
                                 vec2 at, vec3 wi) {
     float mean = environment_map_texel_weight(self.map, texel);
     if (!(mean > 0.0) || !(wi.z > self.lowest)) return 0.0;
@@ -90,7 +91,7 @@ float environment_cells_density(EnvironmentCells self, float probability, ivec2 
 
 /// The sample in a texel.
 /// \param texel with the random numbers that are left.
-TexturedSample environment_cells_sample(EnvironmentCells self, CellChoice cell, TexelChoice texel) {
+TexturedSample environment_cells_sample(const EnvironmentCells self, const CellChoice cell, const TexelChoice texel) {
     float step_size = reciprocal_power_of_two(float(environment_map_size(self.map)));
     BilinearTexel interpolant = environment_map_interpolant(self.map, texel.at);
     vec2 inside = bilinear_texel_sample(interpolant, texel.u);

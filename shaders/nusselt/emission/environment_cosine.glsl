@@ -17,13 +17,13 @@ struct EnvironmentCosine {
 };
 
 /// About the mean cosines of four elements.
-vec4 environment_cosine_factor(vec3 normal, EnvironmentElements four) {
+vec4 environment_cosine_factor(vec3 normal, const EnvironmentElements four) {
     return smooth_clamp(normal.x * four.x + normal.y * four.y + normal.z * four.z, four.variance);
 }
 
 /// \param map   number of its first word (environment_map.glsl).
 /// \param frame of the shading point, in the space of the map.
-EnvironmentCosine environment_cosine_prepare(uint map, Frame frame) {
+EnvironmentCosine environment_cosine_prepare(uint map, const Frame frame) {
     EnvironmentCells cells = environment_cells_prepare(map, frame, 0.0);
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; cell += 4) {
         EnvironmentElements four = environment_map_cells(map, cell);
@@ -34,16 +34,16 @@ EnvironmentCosine environment_cosine_prepare(uint map, Frame frame) {
 }
 
 /// An estimate of the integral of radiance, averaged over channels, times the cosine [W/m^2].
-float environment_cosine_measure(EnvironmentCosine self) { return environment_cells_measure(self.cells); }
+float environment_cosine_measure(const EnvironmentCosine self) { return environment_cells_measure(self.cells); }
 
 /// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
 /// for multiple importance sampling, an estimate as the measure.
-vec3 environment_cosine_unshadowed(EnvironmentCosine self) {
+vec3 environment_cosine_unshadowed(const EnvironmentCosine self) {
     return self.cells.unshadowed;
 }
 
 /// The weights of the parts of an element. Neighbouring texels have nearly the same cosine.
-vec4 environment_cosine_weights(EnvironmentCosine self, int level, ivec2 at) {
+vec4 environment_cosine_weights(const EnvironmentCosine self, int level, ivec2 at) {
     if (level == 1) return environment_map_texel_weights(self.cells.map, at);
     EnvironmentElements four = environment_map_parts(self.cells.map, level, at);
     return four.weight * environment_cosine_factor(self.cells.frame.n, four);
@@ -51,7 +51,7 @@ vec4 environment_cosine_weights(EnvironmentCosine self, int level, ivec2 at) {
 
 /// The probability of a texel given its cell, and the random numbers that lead there.
 /// \param choice with the texel, and with the random numbers inside of it.
-TexelChoice environment_cosine_ascend(EnvironmentCosine self, TexelChoice choice) {
+TexelChoice environment_cosine_ascend(const EnvironmentCosine self, TexelChoice choice) {
     int levels = environment_map_levels(self.cells.map);
     for (int level = 1; level < levels; ++level) {
         ivec2 part = choice.at & 1;
@@ -63,7 +63,7 @@ TexelChoice environment_cosine_ascend(EnvironmentCosine self, TexelChoice choice
 
 /// \param u in [0, 1)^2; x chooses along the x axis of the map, y along its y axis: some stratification survives.
 /// \return p is wi times kNusseltEnvironmentDistance, `at` the point of the map: look up the radiance there.
-TexturedSample environment_cosine_sample(EnvironmentCosine self, vec2 u) {
+TexturedSample environment_cosine_sample(const EnvironmentCosine self, vec2 u) {
     if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     CellChoice cell = cell_sums_choose(self.cells.sums, u);
     TexelChoice texel = TexelChoice(cell.at, 1.0, cell.u);
@@ -74,7 +74,7 @@ TexturedSample environment_cosine_sample(EnvironmentCosine self, vec2 u) {
 
 /// \param at point of the map.
 /// \param wi its direction.
-float environment_cosine_density(EnvironmentCosine self, vec2 at, vec3 wi) {
+float environment_cosine_density(const EnvironmentCosine self, vec2 at, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     TexelChoice texel = environment_cells_texel_at(self.cells, at);
     float of_cell = cell_sums_at(self.cells.sums, at).probability;
@@ -84,18 +84,18 @@ float environment_cosine_density(EnvironmentCosine self, vec2 at, vec3 wi) {
 }
 
 /// \param wi unit.
-float environment_cosine_pdf(EnvironmentCosine self, vec3 wi) {
+float environment_cosine_pdf(const EnvironmentCosine self, vec3 wi) {
     return environment_cosine_density(self, octahedral_coordinates(frame_to_world(self.cells.frame, wi)), wi);
 }
 
 /// The density of the direction of a point of the map [1/sr].
 /// \param at in [0, 1)^2.
-float environment_cosine_pdf_at(EnvironmentCosine self, vec2 at) {
+float environment_cosine_pdf_at(const EnvironmentCosine self, vec2 at) {
     return environment_cosine_density(self, at, frame_to_local(self.cells.frame, octahedral_direction(at)));
 }
 
 /// The random numbers for which the sample is wi, a unit direction.
-vec2 environment_cosine_invert(EnvironmentCosine self, vec3 wi) {
+vec2 environment_cosine_invert(const EnvironmentCosine self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     vec2 at = octahedral_coordinates(frame_to_world(self.cells.frame, wi));
     TexelChoice texel = environment_cells_texel_at(self.cells, at);

@@ -29,7 +29,7 @@ struct EnvironmentLtc {
 };
 
 /// \param frame of the shading point, in the space of the map.
-EnvironmentLobe environment_lobe_prepare(Ltc ltc, Frame frame) {
+EnvironmentLobe environment_lobe_prepare(const Ltc ltc, const Frame frame) {
     EnvironmentLobe self;
     self.column_x = ltc_to_cosine(ltc, vec3(frame.t.x, frame.b.x, frame.n.x));
     self.column_y = ltc_to_cosine(ltc, vec3(frame.t.y, frame.b.y, frame.n.y));
@@ -51,7 +51,7 @@ EnvironmentLobe environment_lobe_prepare(Ltc ltc, Frame frame) {
 
 /// About the mean densities in four elements: those in the mean directions, widened by the variance, with the same
 /// integral. The area of a narrow lobe grows with the variance, and a Lambertian lobe remains.
-vec4 environment_ltc_factor(EnvironmentLobe self, EnvironmentElements four) {
+vec4 environment_ltc_factor(const EnvironmentLobe self, const EnvironmentElements four) {
     vec4 x = self.column_x.x * four.x + (self.column_y.x * four.y + self.column_z.x * four.z);
     vec4 y = self.column_x.y * four.x + (self.column_y.y * four.y + self.column_z.y * four.z);
     vec4 z = self.column_x.z * four.x + (self.column_y.z * four.y + self.column_z.z * four.z);
@@ -63,7 +63,7 @@ vec4 environment_ltc_factor(EnvironmentLobe self, EnvironmentElements four) {
 
 /// \param map   number of its first word (environment_map.glsl).
 /// \param frame of the shading point, in the space of the map.
-EnvironmentLtc environment_ltc_prepare(uint map, Frame frame, Ltc ltc) {
+EnvironmentLtc environment_ltc_prepare(uint map, const Frame frame, const Ltc ltc) {
     EnvironmentLobe lobe = environment_lobe_prepare(ltc, frame);
     EnvironmentCells cells = environment_cells_prepare(map, frame, -kNusseltLargest);
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; cell += 4) {
@@ -75,15 +75,15 @@ EnvironmentLtc environment_ltc_prepare(uint map, Frame frame, Ltc ltc) {
 }
 
 /// An estimate of the integral of radiance, averaged over channels, times the density of the lobe [W/(sr m^2)].
-float environment_ltc_measure(EnvironmentLtc self) { return environment_cells_measure(self.cells); }
+float environment_ltc_measure(const EnvironmentLtc self) { return environment_cells_measure(self.cells); }
 
 /// See environment_cosine_unshadowed().
-vec3 environment_ltc_unshadowed(EnvironmentLtc self) {
+vec3 environment_ltc_unshadowed(const EnvironmentLtc self) {
     return self.cells.unshadowed;
 }
 
 /// The weights of the parts of an element. Neighbouring texels have nearly the same density.
-vec4 environment_ltc_weights(EnvironmentLtc self, int level, ivec2 at) {
+vec4 environment_ltc_weights(const EnvironmentLtc self, int level, ivec2 at) {
     if (level == 1) return environment_map_texel_weights(self.cells.map, at);
     EnvironmentElements four = environment_map_parts(self.cells.map, level, at);
     return four.weight * environment_ltc_factor(self.lobe, four);
@@ -91,7 +91,7 @@ vec4 environment_ltc_weights(EnvironmentLtc self, int level, ivec2 at) {
 
 /// The probability of a texel given its cell, and the random numbers that lead there.
 /// \param choice with the texel, and with the random numbers inside of it.
-TexelChoice environment_ltc_ascend(EnvironmentLtc self, TexelChoice choice) {
+TexelChoice environment_ltc_ascend(const EnvironmentLtc self, TexelChoice choice) {
     int levels = environment_map_levels(self.cells.map);
     for (int level = 1; level < levels; ++level) {
         ivec2 part = choice.at & 1;
@@ -102,7 +102,7 @@ TexelChoice environment_ltc_ascend(EnvironmentLtc self, TexelChoice choice) {
 }
 
 /// \param u in [0, 1)^2; see environment_cosine_sample().
-TexturedSample environment_ltc_sample(EnvironmentLtc self, vec2 u) {
+TexturedSample environment_ltc_sample(const EnvironmentLtc self, vec2 u) {
     if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     CellChoice cell = cell_sums_choose(self.cells.sums, u);
     TexelChoice texel = TexelChoice(cell.at, 1.0, cell.u);
@@ -113,7 +113,7 @@ TexturedSample environment_ltc_sample(EnvironmentLtc self, vec2 u) {
 
 /// \param at point of the map.
 /// \param wi its direction.
-float environment_ltc_density(EnvironmentLtc self, vec2 at, vec3 wi) {
+float environment_ltc_density(const EnvironmentLtc self, vec2 at, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     TexelChoice texel = environment_cells_texel_at(self.cells, at);
     float of_cell = cell_sums_at(self.cells.sums, at).probability;
@@ -123,18 +123,18 @@ float environment_ltc_density(EnvironmentLtc self, vec2 at, vec3 wi) {
 }
 
 /// \param wi unit.
-float environment_ltc_pdf(EnvironmentLtc self, vec3 wi) {
+float environment_ltc_pdf(const EnvironmentLtc self, vec3 wi) {
     return environment_ltc_density(self, octahedral_coordinates(frame_to_world(self.cells.frame, wi)), wi);
 }
 
 /// The density of the direction of a point of the map [1/sr].
 /// \param at in [0, 1)^2.
-float environment_ltc_pdf_at(EnvironmentLtc self, vec2 at) {
+float environment_ltc_pdf_at(const EnvironmentLtc self, vec2 at) {
     return environment_ltc_density(self, at, frame_to_local(self.cells.frame, octahedral_direction(at)));
 }
 
 /// The random numbers for which the sample is wi, a unit direction.
-vec2 environment_ltc_invert(EnvironmentLtc self, vec3 wi) {
+vec2 environment_ltc_invert(const EnvironmentLtc self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     vec2 at = octahedral_coordinates(frame_to_world(self.cells.frame, wi));
     TexelChoice texel = environment_cells_texel_at(self.cells, at);

@@ -84,17 +84,17 @@ struct TexelRectangle {
 };
 
 /// A quantity summed over texels: exact.
-uvec2 rectified_table_sum(uint table, uint quantity, TexelRectangle r) {
+uvec2 rectified_table_sum(uint table, uint quantity, const TexelRectangle r) {
     uvec2 a = rectified_table_below(table, quantity, r.begin.x, r.begin.y);
     uvec2 b = rectified_table_below(table, quantity, r.end.x, r.begin.y);
     uvec2 c = rectified_table_below(table, quantity, r.begin.x, r.end.y);
     uvec2 d = rectified_table_below(table, quantity, r.end.x, r.end.y);
     return difference_of_pairs(difference_of_pairs(d, c), difference_of_pairs(b, a));
 }
-bool rectified_table_is_black(uint table, TexelRectangle r) {
+bool rectified_table_is_black(uint table, const TexelRectangle r) {
     return is_zero_pair(rectified_table_sum(table, kNusseltWeight, r));
 }
-float rectified_table_weight(uint table, TexelRectangle r) {
+float rectified_table_weight(uint table, const TexelRectangle r) {
     return pair_to_float(rectified_table_sum(table, kNusseltWeight, r));
 }
 

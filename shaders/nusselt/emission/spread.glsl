@@ -29,12 +29,12 @@ float hole_share(float across, float along, float slope) {
 }
 
 /// The share of radiance that passes in a unit direction of the frame of the light, whose z axis is its normal.
-float honeycomb_share(Honeycomb self, vec3 direction) {
+float honeycomb_share(const Honeycomb self, vec3 direction) {
     if (!(direction.z > 0.0)) return 0.0;
     return hole_share(direction.x, direction.z, self.slope.x) * hole_share(direction.y, direction.z, self.slope.y);
 }
 /// Likewise.
-float radial_spread_share(RadialSpread self, vec3 direction) {
+float radial_spread_share(const RadialSpread self, vec3 direction) {
     if (!(direction.z > 0.0)) return 0.0;
     return hole_share(sqrt(dot(direction.xy, direction.xy)), direction.z, self.slope);
 }

@@ -15,7 +15,7 @@ struct TexelInterval {
 };
 
 /// Where sums over the interval change from one share of texels to another.
-int texel_interval_edge(TexelInterval self, int k) {
+int texel_interval_edge(const TexelInterval self, int k) {
     if (k == 0) return self.first;
     if (k == 1) return self.first + 1;
     return k == 2 ? max(self.last, self.first + 1) : self.last + 1;
@@ -36,24 +36,24 @@ TableAxis make_table_axis(int texels, float position) {
 }
 
 /// Where texel i begins.
-float table_axis_edge(TableAxis self, int i) { return float(i - self.texel) - self.fraction; }
-int table_axis_texel_at(TableAxis self, float offset) {
+float table_axis_edge(const TableAxis self, int i) { return float(i - self.texel) - self.fraction; }
+int table_axis_texel_at(const TableAxis self, float offset) {
     float limit = float(2 * self.count);
     int steps = int(floor(nusselt_min(nusselt_max(offset + self.fraction, -limit), limit)));
     return clamp(self.texel + steps, 0, self.count - 1);
 }
-TexelInterval table_axis_interval(TableAxis self, float begin, float end) {
+TexelInterval table_axis_interval(const TableAxis self, float begin, float end) {
     int first = table_axis_texel_at(self, begin);
     return TexelInterval(begin, end, first, max(table_axis_texel_at(self, end), first));
 }
 /// What an interval has of the texels between its edges k and k + 1: a length, or 1 for whole texels.
-float table_axis_share(TableAxis self, TexelInterval x, int k) {
+float table_axis_share(const TableAxis self, const TexelInterval x, int k) {
     if (x.last == x.first) return k == 0 ? x.end - x.begin : 0.0;
     if (k == 0) return nusselt_max(table_axis_edge(self, x.first + 1) - x.begin, 0.0);
     return k == 1 ? 1.0 : nusselt_max(x.end - table_axis_edge(self, x.last), 0.0);
 }
 /// The part of an interval in a texel.
-vec2 table_axis_part(TableAxis self, TexelInterval x, int i) {
+vec2 table_axis_part(const TableAxis self, const TexelInterval x, int i) {
     float begin = i > x.first ? table_axis_edge(self, i) : x.begin;
     float end = i < x.last ? table_axis_edge(self, i + 1) : x.end;
     return vec2(nusselt_min(begin, x.end), nusselt_max(end, begin));
@@ -72,17 +72,17 @@ struct TableWindow {
     TexelInterval columns, rows;
 };
 
-TableAxis table_window_axis(TableWindow self, int axis) {
+TableAxis table_window_axis(const TableWindow self, int axis) {
     if (axis == 0) return self.across;
     return self.along;
 }
-TexelInterval table_window_interval(TableWindow self, int axis) {
+TexelInterval table_window_interval(const TableWindow self, int axis) {
     if (axis == 0) return self.columns;
     return self.rows;
 }
 
 /// A quantity over that of the table, where parts of texels have their share by area in (alpha, beta).
-float table_window_sum(TableWindow self, uint quantity) {
+float table_window_sum(const TableWindow self, uint quantity) {
     float total = 0.0;
     uvec2 below[3]; // differences of the columns' sums up to the last row
     for (int l = 0; l < 4; ++l) {
@@ -103,7 +103,7 @@ float table_window_sum(TableWindow self, uint quantity) {
 }
 
 /// The squared coefficient of variation of the radiance of texels, by solid angle.
-float table_window_variation(TableWindow self) {
+float table_window_variation(const TableWindow self) {
     vec3 sum; // weight, square and solid angle, in the order of their words
     for (int k = 0; k < 3; ++k) sum[k] = table_window_sum(self, 2u * uint(k));
     if (!(sum.x > 0.0)) return 0.0;
@@ -112,7 +112,7 @@ float table_window_variation(TableWindow self) {
 }
 
 /// The weight of columns from one to before another, all of them whole.
-float table_window_strip(TableWindow self, int first, int end) {
+float table_window_strip(const TableWindow self, int first, int end) {
     NUSSELT_PRECISE float total = 0.0;
     for (int k = 0; k < 3; ++k) {
         float share = table_axis_share(self.along, self.rows, k);
@@ -127,7 +127,7 @@ float table_window_strip(TableWindow self, int first, int end) {
 /// The weight of columns (axis 0), or of the rows of one whole column (axis 1), up to the end of one. Grows with it, in
 /// spite of rounding.
 /// \param column whose rows are summed.
-float table_window_sum_to(TableWindow self, int axis, int column, int texel) {
+float table_window_sum_to(const TableWindow self, int axis, int column, int texel) {
     TexelInterval x = table_window_interval(self, axis);
     NUSSELT_PRECISE float total = 0.0;
     for (int k = 0; k < 3; ++k) {
@@ -148,7 +148,7 @@ float table_window_sum_to(TableWindow self, int axis, int column, int texel) {
 }
 
 /// Chooses a column, or a row of a column, and an offset in it.
-float table_window_choose(TableWindow self, int axis, int column, float u, out int texel) {
+float table_window_choose(const TableWindow self, int axis, int column, float u, out int texel) {
     TexelInterval interval = table_window_interval(self, axis);
     int low = interval.first;
     int high = interval.last;
@@ -175,7 +175,7 @@ float table_window_choose(TableWindow self, int axis, int column, float u, out i
 
 /// A point with a density in proportion to the weight of its texel, uniform in (alpha, beta) within it. The window has to
 /// have a weight.
-WindowPoint table_window_sample(TableWindow self, vec2 u) {
+WindowPoint table_window_sample(const TableWindow self, vec2 u) {
     WindowPoint point;
     int column = 0;
     // A loop, because compilers inline all functions.
@@ -189,7 +189,7 @@ WindowPoint table_window_sample(TableWindow self, vec2 u) {
 }
 
 /// The texel of the window with these offsets.
-WindowPoint table_window_point_at(TableWindow self, vec2 offset) {
+WindowPoint table_window_point_at(const TableWindow self, vec2 offset) {
     return WindowPoint(
         ivec2(clamp(table_axis_texel_at(self.across, offset.x), self.columns.first, self.columns.last),
               clamp(table_axis_texel_at(self.along, offset.y), self.rows.first, self.rows.last)),
@@ -197,7 +197,7 @@ WindowPoint table_window_point_at(TableWindow self, vec2 offset) {
 }
 
 /// The random number that leads to a position in a column, or in a row of a column.
-float table_window_number(TableWindow self, int axis, int column, int texel, float position) {
+float table_window_number(const TableWindow self, int axis, int column, int texel, float position) {
     TexelInterval interval = table_window_interval(self, axis);
     vec2 part = table_axis_part(table_window_axis(self, axis), interval, texel);
     float size = part.y - part.x;
@@ -209,7 +209,7 @@ float table_window_number(TableWindow self, int axis, int column, int texel, flo
 }
 
 /// The random numbers that lead to offsets in the window.
-vec2 table_window_invert(TableWindow self, vec2 offset) {
+vec2 table_window_invert(const TableWindow self, vec2 offset) {
     WindowPoint point = table_window_point_at(self, offset);
     vec2 u;
     for (int axis = 0; axis < 2; ++axis)
@@ -218,7 +218,7 @@ vec2 table_window_invert(TableWindow self, vec2 offset) {
 }
 
 /// The density of table_window_sample() per square texel.
-float table_window_pdf(TableWindow self, WindowPoint point) {
+float table_window_pdf(const TableWindow self, const WindowPoint point) {
     float weight = kNusseltTableShare *
                    rectified_table_weight(self.table, TexelRectangle(point.texel, point.texel + 1));
     float total = table_window_sum(self, kNusseltWeight);
@@ -250,7 +250,7 @@ int black_lines_of(uint table, TexelRectangle r, int axis, bool at_end) {
 }
 
 /// The smallest rectangle of whole texels with all of the weight of those that the window meets.
-TexelRectangle table_window_lit(TableWindow self) {
+TexelRectangle table_window_lit(const TableWindow self) {
     TexelRectangle lit = TexelRectangle(ivec2(self.columns.first, self.rows.first),
                                         ivec2(self.columns.last, self.rows.last) + 1);
     if (rectified_table_is_black(self.table, lit)) return TexelRectangle(ivec2(0), ivec2(0));

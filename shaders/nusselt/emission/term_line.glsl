@@ -45,7 +45,7 @@ TermLine make_uncut_term_line(vec3 q, vec3 direction, float low, float high) {
 }
 
 /// The angle under which a part of the line is seen, times the cosine.
-float term_line_term(TermLine self, float begin, float end) {
+float term_line_term(const TermLine self, float begin, float end) {
     float a = nusselt_min(nusselt_max(begin, self.low), self.high);
     float b = nusselt_min(nusselt_max(end, self.low), self.high);
     float y = (b - a) * self.inverse;

@@ -13,7 +13,7 @@ struct TextureRectangle {
 };
 
 /// Whether all of a rectangle is on the inner side of an edge of an outline.
-bool is_inside_of_edge(vec2 begin, vec2 end, TextureRectangle rectangle) {
+bool is_inside_of_edge(vec2 begin, vec2 end, const TextureRectangle rectangle) {
     vec2 along = end - begin;
     vec2 outermost = vec2(along.y > 0.0 ? rectangle.high.x : rectangle.low.x,
                           along.x > 0.0 ? rectangle.low.y : rectangle.high.y);
@@ -28,7 +28,7 @@ struct TexturePart {
     int count;                        ///< 0 or at least 3
 };
 
-TexturePart texture_part_of(TextureRectangle rectangle) {
+TexturePart texture_part_of(const TextureRectangle rectangle) {
     TexturePart part;
     part.corner[0] = rectangle.low;
     part.corner[1] = vec2(rectangle.high.x, rectangle.low.y);
@@ -72,7 +72,7 @@ TexturePart texture_part_cut(TexturePart whole, int axis, float sign_of_side, fl
 }
 
 /// The part of an outline inside of a rectangle.
-TexturePart texture_part_in(TexturePart outline, TextureRectangle rectangle) {
+TexturePart texture_part_in(const TexturePart outline, const TextureRectangle rectangle) {
     TexturePart part = outline;
     for (int side = 0; side < 4; ++side) {
         int axis = side >> 1;
@@ -128,7 +128,7 @@ vec2 texture_part_invert(TexturePart self, vec2 at) {
 
 /// A part in space. Of a part with more than NUSSELT_MAX_VERTICES corners, it has the first ones: samples of such
 /// parts go to texels.
-ConvexPolygon polygon_in(TexturePlane plane, TexturePart part) {
+ConvexPolygon polygon_in(const TexturePlane plane, TexturePart part) {
     vec3 vertices[NUSSELT_MAX_VERTICES];
     vec3 edges[NUSSELT_MAX_VERTICES];
     vec2 from = part.corner[0];

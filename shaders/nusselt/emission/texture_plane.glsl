@@ -14,14 +14,16 @@ struct TexturePlane {
 };
 
 /// The vector between two points whose texture coordinates differ by this much.
-vec3 texture_plane_offset_of(TexturePlane self, vec2 difference) {
+vec3 texture_plane_offset_of(const TexturePlane self, vec2 difference) {
     return nusselt_fma(difference.y, self.side_y, difference.x * self.side_x);
 }
 
-vec3 texture_plane_point_at(TexturePlane self, vec2 at) { return self.corner + texture_plane_offset_of(self, at); }
+vec3 texture_plane_point_at(const TexturePlane self, vec2 at) {
+    return self.corner + texture_plane_offset_of(self, at);
+}
 
 /// Area of the texture [m^2].
-float texture_plane_area(TexturePlane self) { return nusselt_length(nusselt_cross(self.side_x, self.side_y)); }
+float texture_plane_area(const TexturePlane self) { return nusselt_length(nusselt_cross(self.side_x, self.side_y)); }
 
 /// \param corner, side_x, side_y see TexturePlane.
 TexturePlane make_texture_plane(vec3 corner, vec3 side_x, vec3 side_y) {
@@ -31,13 +33,13 @@ TexturePlane make_texture_plane(vec3 corner, vec3 side_x, vec3 side_y) {
 }
 
 /// The plane seen from a shading point: the point becomes the origin, the normal of the frame +z.
-TexturePlane to_shading_space(TexturePlane world, vec3 point, Frame frame) {
+TexturePlane to_shading_space(const TexturePlane world, vec3 point, const Frame frame) {
     return TexturePlane(frame_to_local(frame, world.corner - point), frame_to_local(frame, world.side_x),
                         frame_to_local(frame, world.side_y), frame_to_local(frame, world.normal));
 }
 
 /// Texture coordinates in [0, 1) of a point of the plane.
-vec2 texture_plane_coordinates(TexturePlane self, vec3 p) {
+vec2 texture_plane_coordinates(const TexturePlane self, vec3 p) {
     // Vectors whose products with one side are 1 and with the other one 0, from sides of order one.
     float scale =
         reciprocal_power_of_two(nusselt_max(largest_component(self.side_x), largest_component(self.side_y)));

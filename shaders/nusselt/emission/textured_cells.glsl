@@ -35,7 +35,7 @@ struct TexturedCells {
 /// A light whose plane is also its image.
 /// \param plane in shading space [m].
 /// \param light first word.
-TexturedView textured_view_prepare(TexturePlane plane, uint light) {
+TexturedView textured_view_prepare(const TexturePlane plane, uint light) {
     TexturedView self;
     self.light = light;
     vec3 reach = nusselt_max(abs(plane.corner), abs(texture_plane_point_at(plane, vec2(1.0, 0.0))));
@@ -54,7 +54,7 @@ TexturedView textured_view_prepare(TexturePlane plane, uint light) {
 }
 
 /// Adds up the weights of cells along columns.
-TexturedCells textured_cells_prepare(TexturedView view) {
+TexturedCells textured_cells_prepare(const TexturedView view) {
     TexturedCells self;
     self.view = view;
     self.unshadowed = vec3(0.0);
@@ -70,17 +70,17 @@ TexturedCells textured_cells_prepare(TexturedView view) {
 }
 
 /// See TexturedPolygon::unshadowed() of C++.
-vec3 textured_cells_unshadowed(TexturedCells self) {
+vec3 textured_cells_unshadowed(const TexturedCells self) {
     return self.sums.total > 0.0 ? (1.0 / kNusseltPi) * self.unshadowed : vec3(0.0);
 }
 
-TextureRectangle textured_cell_rectangle(CellChoice self) {
+TextureRectangle textured_cell_rectangle(const CellChoice self) {
     return TextureRectangle(vec2(lattice_position(self.at.x), lattice_position(self.at.y)),
                             vec2(lattice_position(self.at.x + 1), lattice_position(self.at.y + 1)));
 }
 
 /// Whether the texture varies less in a cell than the cosine, in terms of squared coefficients of variation.
-bool textured_view_is_smooth(TexturedView self, CellChoice cell) {
+bool textured_view_is_smooth(const TexturedView self, const CellChoice cell) {
     float variation = textured_light_variation(self.light, cell_choice_index(cell));
     TextureRectangle r = textured_cell_rectangle(cell);
     vec2 middle = 0.5 * (r.low + r.high);
@@ -110,7 +110,8 @@ struct TexturedSpot {
 };
 
 /// \param texel any, if the cell is smooth.
-TexturedSpot textured_view_spot(TexturedView self, CellChoice cell, bool is_smooth, TexelChoice texel) {
+TexturedSpot textured_view_spot(const TexturedView self, const CellChoice cell, bool is_smooth,
+                                const TexelChoice texel) {
     TexturedSpot spot;
     spot.cell = cell;
     spot.is_smooth = is_smooth;
@@ -129,36 +130,36 @@ TexturedSpot textured_view_spot(TexturedView self, CellChoice cell, bool is_smoo
 
 /// The spot that random numbers choose, with the random numbers that are left.
 /// \param cell with the random numbers inside of it.
-TexturedSpot textured_view_spot_of(TexturedView self, CellChoice cell) {
+TexturedSpot textured_view_spot_of(const TexturedView self, const CellChoice cell) {
     bool is_smooth = textured_view_is_smooth(self, cell);
     TexelChoice texel = TexelChoice(ivec2(0), 0.0, vec2(0.0));
     if (!is_smooth) texel = choose_texel(self.light, self.image, cell.at, cell.u);
     return textured_view_spot(self, cell, is_smooth, texel);
 }
-TexturedSpot textured_cells_spot_of(TexturedCells self, vec2 u) {
+TexturedSpot textured_cells_spot_of(const TexturedCells self, vec2 u) {
     return textured_view_spot_of(self.view, cell_sums_choose(self.sums, u));
 }
 
 /// The spot where a point is.
 /// \param cell that has it.
 /// \param at   texture coordinates.
-TexturedSpot textured_view_spot_at(TexturedView self, CellChoice cell, vec2 at) {
+TexturedSpot textured_view_spot_at(const TexturedView self, const CellChoice cell, vec2 at) {
     ivec2 size = pyramid_size_of(textured_light_shape(self.light), 0);
     ivec2 texel = clamp(ivec2(at * vec2(size)), ivec2(0), size - 1);
     return textured_view_spot(self, cell, textured_view_is_smooth(self, cell), TexelChoice(texel, 1.0, vec2(0.0)));
 }
-TexturedSpot textured_cells_spot_at(TexturedCells self, vec2 at) {
+TexturedSpot textured_cells_spot_at(const TexturedCells self, vec2 at) {
     return textured_view_spot_at(self.view, cell_sums_at(self.sums, at), at);
 }
 
-vec2 clamped(vec2 at, TextureRectangle r) {
+vec2 clamped(vec2 at, const TextureRectangle r) {
     const float below = 0.999999940395355224609375;
     return vec2(nusselt_max(nusselt_min(at.x, below * r.high.x), r.low.x),
                 nusselt_max(nusselt_min(at.y, below * r.high.y), r.low.y));
 }
 
 /// The sample of the technique in a smooth cell.
-TexturedSample textured_view_smooth_sample(TexturedView self, TexturedSpot spot, LightSample s) {
+TexturedSample textured_view_smooth_sample(const TexturedView self, const TexturedSpot spot, const LightSample s) {
     vec2 at = clamped(texture_plane_coordinates(self.plane, s.p), spot.rectangle);
     // The same point up to rounding, but in the plane in any case.
     return TexturedSample(s.wi, spot.cell.probability * s.pdf,
@@ -166,14 +167,14 @@ TexturedSample textured_view_smooth_sample(TexturedView self, TexturedSpot spot,
 }
 
 /// The share of the texture that a texel has.
-float textured_spot_size(TexturedSpot self) {
+float textured_spot_size(const TexturedSpot self) {
     vec2 extent = self.rectangle.high - self.rectangle.low;
     return self.is_whole ? extent.x * extent.y : texture_part_area(self.part);
 }
 
 /// The density of a direction to a point that is uniform in a part of the texture.
 /// \param size share of the texture.
-float textured_view_texel_density(TexturedView self, float probability, float size, vec3 wi, vec3 p) {
+float textured_view_texel_density(const TexturedView self, float probability, float size, vec3 wi, vec3 p) {
     if (!(probability > 0.0) || !(size > 0.0) || !(wi.z > self.lowest)) return 0.0;
     float distance = dot(wi, p);
     float projected = size / probability * (self.area * self.distance / nusselt_max(distance, kNusseltTiny));
@@ -181,7 +182,7 @@ float textured_view_texel_density(TexturedView self, float probability, float si
 }
 
 /// The sample of a texel in a busy cell.
-TexturedSample textured_view_busy_sample(TexturedView self, TexturedSpot spot) {
+TexturedSample textured_view_busy_sample(const TexturedView self, const TexturedSpot spot) {
     vec2 at = spot.rectangle.low + spot.texel.u * (spot.rectangle.high - spot.rectangle.low);
     if (!spot.is_whole) at = texture_part_sample(spot.part, spot.texel.u);
     at = clamped(at, spot.rectangle);
@@ -195,14 +196,14 @@ TexturedSample textured_view_busy_sample(TexturedView self, TexturedSpot spot) {
 /// The density of a point in a busy cell.
 /// \param wi its direction.
 /// \param at its texture coordinates.
-float textured_view_busy_density(TexturedView self, TexturedSpot spot, vec3 wi, vec2 at) {
+float textured_view_busy_density(const TexturedView self, const TexturedSpot spot, vec3 wi, vec2 at) {
     float probability = ascend_from_texel(self.light, self.image, spot.texel).probability;
     return textured_view_texel_density(self, spot.cell.probability * probability, textured_spot_size(spot), wi,
                                        texture_plane_point_at(self.plane, at));
 }
 
 /// The random numbers inside of a busy cell for a point.
-vec2 textured_view_busy_invert(TexturedView self, TexturedSpot spot, vec2 at) {
+vec2 textured_view_busy_invert(const TexturedView self, const TexturedSpot spot, vec2 at) {
     vec2 inside = (at - spot.rectangle.low) / (spot.rectangle.high - spot.rectangle.low);
     TexelChoice texel = spot.texel;
     texel.u = vec2(below_one(inside.x), below_one(inside.y));
@@ -211,7 +212,7 @@ vec2 textured_view_busy_invert(TexturedView self, TexturedSpot spot, vec2 at) {
 }
 
 /// Texture coordinates of the point in a direction.
-vec2 textured_view_hit(TexturedView self, vec3 wi) {
+vec2 textured_view_hit(const TexturedView self, vec3 wi) {
     float farthest = nusselt_max(nusselt_length(self.plane.corner),
                                  nusselt_length(texture_plane_point_at(self.plane, vec2(1.0, 0.0))));
     farthest = nusselt_max(farthest, nusselt_length(texture_plane_point_at(self.plane, vec2(1.0))));

@@ -82,7 +82,7 @@ vec2 textured_light_end_of(uint light, int edge) {
 }
 
 /// Whether all of a rectangle is inside of the outline.
-bool textured_light_contains(uint light, TextureRectangle rectangle) {
+bool textured_light_contains(uint light, const TextureRectangle rectangle) {
     int count = textured_light_vertices(light);
     bool inside = true;
     for (int k = 0; k < count; ++k)
@@ -92,7 +92,7 @@ bool textured_light_contains(uint light, TextureRectangle rectangle) {
 }
 
 /// The part of a rectangle inside of the outline.
-TexturePart textured_light_part_in(uint light, TextureRectangle rectangle) {
+TexturePart textured_light_part_in(uint light, const TextureRectangle rectangle) {
     TexturePart part;
     part.count = textured_light_vertices(light);
     for (int k = 0; k < kNusseltMostCorners; ++k)
@@ -101,7 +101,7 @@ TexturePart textured_light_part_in(uint light, TextureRectangle rectangle) {
 }
 
 /// All of the texture, a parallelogram in space.
-ConvexPolygon texture_plane_outline(TexturePlane plane) {
+ConvexPolygon texture_plane_outline(const TexturePlane plane) {
     return polygon_in(plane, texture_part_of(TextureRectangle(vec2(0.0), vec2(1.0))));
 }
 
@@ -118,13 +118,13 @@ PyramidShape textured_light_shape(uint light) {
 }
 
 /// Columns and rows of a grid.
-ivec2 pyramid_size_of(PyramidShape self, int level) {
+ivec2 pyramid_size_of(const PyramidShape self, int level) {
     return max(ivec2(1 << max(self.width_log2 - level, 0), 1 << max(self.height_log2 - level, 0)),
                ivec2(kNusseltCells));
 }
 
 /// Columns and rows of the grid before that make one column and row of a grid: 1 or 2 each.
-ivec2 pyramid_parts_of(PyramidShape self, int level) {
+ivec2 pyramid_parts_of(const PyramidShape self, int level) {
     return pyramid_size_of(self, level - 1) / pyramid_size_of(self, level);
 }
 

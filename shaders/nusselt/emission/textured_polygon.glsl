@@ -17,7 +17,7 @@ struct TexturedPolygon {
 };
 
 /// See textured_polygon_prepare().
-TexturedView textured_polygon_view(TexturePlane plane, uint light) {
+TexturedView textured_polygon_view(const TexturePlane plane, uint light) {
     TexturedView view = textured_view_prepare(plane, light);
     view.distance = abs(plane_distance(texture_plane_outline(view.plane)));
     return view;
@@ -25,25 +25,25 @@ TexturedView textured_polygon_view(TexturePlane plane, uint light) {
 
 /// \param plane of the texture in shading space [m].
 /// \param light number of the first word of the light (textured_light.glsl).
-TexturedPolygon textured_polygon_prepare(TexturePlane plane, uint light) {
+TexturedPolygon textured_polygon_prepare(const TexturePlane plane, uint light) {
     return TexturedPolygon(textured_cells_prepare(textured_polygon_view(plane, light)));
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].
-float textured_polygon_measure(TexturedPolygon self) { return self.cells.sums.total; }
+float textured_polygon_measure(const TexturedPolygon self) { return self.cells.sums.total; }
 
 /// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
 /// for multiple importance sampling. Exact where the texture is constant in each cell.
-vec3 textured_polygon_unshadowed(TexturedPolygon self) { return textured_cells_unshadowed(self.cells); }
+vec3 textured_polygon_unshadowed(const TexturedPolygon self) { return textured_cells_unshadowed(self.cells); }
 
 /// The technique inside of a smooth cell.
-PolygonProjectedSolidAngle textured_polygon_technique(TexturedView view, TexturedSpot spot) {
+PolygonProjectedSolidAngle textured_polygon_technique(const TexturedView view, const TexturedSpot spot) {
     return polygon_projected_solid_angle_prepare(polygon_in(view.plane, spot.part));
 }
 
 /// \param u in [0, 1)^2; x chooses along the x axis of the texture, y along its y axis: stratification survives in
 ///          part.
-TexturedSample textured_polygon_sample(TexturedPolygon self, vec2 u) {
+TexturedSample textured_polygon_sample(const TexturedPolygon self, vec2 u) {
     if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_of(self.cells, u);
@@ -54,7 +54,7 @@ TexturedSample textured_polygon_sample(TexturedPolygon self, vec2 u) {
 
 /// \param wi a unit direction towards the light.
 /// \param at texture coordinates of the point there.
-float textured_polygon_density(TexturedPolygon self, vec3 wi, vec2 at) {
+float textured_polygon_density(const TexturedPolygon self, vec3 wi, vec2 at) {
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_at(self.cells, at);
     if (!(spot.cell.probability > 0.0)) return 0.0;
@@ -63,19 +63,19 @@ float textured_polygon_density(TexturedPolygon self, vec3 wi, vec2 at) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_polygon_pdf(TexturedPolygon self, vec3 wi) {
+float textured_polygon_pdf(const TexturedPolygon self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_density(self, wi, textured_view_hit(self.cells.view, wi));
 }
 
 /// The density of the direction to the point with these texture coordinates [1/sr].
-float textured_polygon_pdf_at(TexturedPolygon self, vec2 at) {
+float textured_polygon_pdf_at(const TexturedPolygon self, vec2 at) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_density(self, nusselt_normalize(texture_plane_point_at(self.cells.view.plane, at)), at);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 textured_polygon_invert(TexturedPolygon self, vec3 wi) {
+vec2 textured_polygon_invert(const TexturedPolygon self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);

@@ -19,7 +19,7 @@ struct TexturedPolygonLtc {
 };
 
 /// See textured_polygon_ltc_prepare().
-TexturedView textured_polygon_ltc_view(TexturePlane plane, uint light, Ltc ltc) {
+TexturedView textured_polygon_ltc_view(const TexturePlane plane, uint light, const Ltc ltc) {
     TexturedView view = textured_view_prepare(plane, light);
     view.image = TexturePlane(ltc_to_cosine(ltc, view.plane.corner), ltc_to_cosine(ltc, view.plane.side_x),
                               ltc_to_cosine(ltc, view.plane.side_y),
@@ -32,23 +32,23 @@ TexturedView textured_polygon_ltc_view(TexturePlane plane, uint light, Ltc ltc) 
 
 /// \param plane of the texture in shading space [m].
 /// \param light number of the first word of the light (textured_light.glsl).
-TexturedPolygonLtc textured_polygon_ltc_prepare(TexturePlane plane, uint light, Ltc ltc) {
+TexturedPolygonLtc textured_polygon_ltc_prepare(const TexturePlane plane, uint light, const Ltc ltc) {
     return TexturedPolygonLtc(textured_cells_prepare(textured_polygon_ltc_view(plane, light, ltc)), ltc);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe [W/(sr m^2)].
-float textured_polygon_ltc_measure(TexturedPolygonLtc self) { return (1.0 / kNusseltPi) * self.cells.sums.total; }
+float textured_polygon_ltc_measure(const TexturedPolygonLtc self) { return (1.0 / kNusseltPi) * self.cells.sums.total; }
 
 /// See textured_polygon_unshadowed().
-vec3 textured_polygon_ltc_unshadowed(TexturedPolygonLtc self) { return textured_cells_unshadowed(self.cells); }
+vec3 textured_polygon_ltc_unshadowed(const TexturedPolygonLtc self) { return textured_cells_unshadowed(self.cells); }
 
 /// The technique inside of a smooth cell.
-PolygonLtc textured_polygon_ltc_technique(TexturedPolygonLtc self, TexturedSpot spot) {
+PolygonLtc textured_polygon_ltc_technique(const TexturedPolygonLtc self, const TexturedSpot spot) {
     return polygon_ltc_prepare(polygon_in(self.cells.view.plane, spot.part), self.ltc);
 }
 
 /// \param u in [0, 1)^2; see textured_polygon_sample().
-TexturedSample textured_polygon_ltc_sample(TexturedPolygonLtc self, vec2 u) {
+TexturedSample textured_polygon_ltc_sample(const TexturedPolygonLtc self, vec2 u) {
     if (!(self.cells.sums.total > 0.0)) return no_textured_sample();
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_of(self.cells, u);
@@ -59,7 +59,7 @@ TexturedSample textured_polygon_ltc_sample(TexturedPolygonLtc self, vec2 u) {
 
 /// \param wi a unit direction towards the light.
 /// \param at texture coordinates of the point there.
-float textured_polygon_ltc_density(TexturedPolygonLtc self, vec3 wi, vec2 at) {
+float textured_polygon_ltc_density(const TexturedPolygonLtc self, vec3 wi, vec2 at) {
     TexturedView view = self.cells.view;
     TexturedSpot spot = textured_cells_spot_at(self.cells, at);
     if (!(spot.cell.probability > 0.0)) return 0.0;
@@ -68,19 +68,19 @@ float textured_polygon_ltc_density(TexturedPolygonLtc self, vec3 wi, vec2 at) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_polygon_ltc_pdf(TexturedPolygonLtc self, vec3 wi) {
+float textured_polygon_ltc_pdf(const TexturedPolygonLtc self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_ltc_density(self, wi, textured_view_hit(self.cells.view, wi));
 }
 
 /// The density of the direction to the point with these texture coordinates [1/sr].
-float textured_polygon_ltc_pdf_at(TexturedPolygonLtc self, vec2 at) {
+float textured_polygon_ltc_pdf_at(const TexturedPolygonLtc self, vec2 at) {
     if (!(self.cells.sums.total > 0.0)) return 0.0;
     return textured_polygon_ltc_density(self, nusselt_normalize(texture_plane_point_at(self.cells.view.plane, at)), at);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 textured_polygon_ltc_invert(TexturedPolygonLtc self, vec3 wi) {
+vec2 textured_polygon_ltc_invert(const TexturedPolygonLtc self, vec3 wi) {
     if (!(self.cells.sums.total > 0.0)) return vec2(0.0);
     TexturedView view = self.cells.view;
     vec2 at = textured_view_hit(view, wi);

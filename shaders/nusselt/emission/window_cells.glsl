@@ -18,10 +18,10 @@ struct SlopeInterval {
     float move;      ///< of the origin, from that of the interval that this one is a part of
 };
 
-bool slope_interval_is_empty(SlopeInterval self) { return !(self.low < self.high); }
+bool slope_interval_is_empty(const SlopeInterval self) { return !(self.low < self.high); }
 
 /// The part between two slopes.
-SlopeInterval slope_interval_cut(SlopeInterval self, float from, float to) {
+SlopeInterval slope_interval_cut(const SlopeInterval self, float from, float to) {
     float begin = nusselt_max(self.low, from - self.origin);
     float end = nusselt_min(self.high, to - self.origin);
     NUSSELT_PRECISE float by = nusselt_max(nusselt_min(0.0, end), begin);
@@ -29,13 +29,13 @@ SlopeInterval slope_interval_cut(SlopeInterval self, float from, float to) {
     return SlopeInterval(self.origin + by, low, end - by, by);
 }
 /// The angle between the origin and an offset [rad].
-float slope_interval_angle_at(SlopeInterval self, float offset) {
+float slope_interval_angle_at(const SlopeInterval self, float offset) {
     // Offsets have the sign of the origin, so that nothing cancels.
     float x = nusselt_max(nusselt_fma(self.origin, self.origin + offset, 1.0), 0.0);
     return copysign(atan2_positive(abs(offset), x), offset);
 }
 /// What slope_interval_angle_at() undoes.
-float slope_interval_offset_at(SlopeInterval self, float angle) {
+float slope_interval_offset_at(const SlopeInterval self, float angle) {
     SinCos turn = sincos_quarter_turn(nusselt_min(abs(angle), 0.5 * kNusseltPi));
     float sine = copysign(turn.sine, angle);
     float x = turn.cosine - self.origin * sine;
@@ -55,13 +55,13 @@ struct WindowLines {
 
 /// \param count of texels.
 /// \param angle_low where they begin, texel_size how large they are [rad].
-TableAxis window_axis_of(SlopeInterval interval, int count, float angle_low, float texel_size) {
+TableAxis window_axis_of(const SlopeInterval interval, int count, float angle_low, float texel_size) {
     float angle = copysign(atan2_positive(abs(interval.origin), 1.0), interval.origin);
     return make_table_axis(count, (angle - angle_low) / texel_size);
 }
 
 /// \param count, angle_low, texel_size see window_axis_of().
-WindowLines window_lines_prepare(SlopeInterval interval, int count, float angle_low, float texel_size) {
+WindowLines window_lines_prepare(const SlopeInterval interval, int count, float angle_low, float texel_size) {
     WindowLines self;
     self.slopes = interval;
     self.axis = window_axis_of(interval, count, angle_low, texel_size);
@@ -89,10 +89,10 @@ int window_lines_cell_at(WindowLines self, float x) {
     for (int k = kNusseltCells / 2; k > 0; k /= 2) found += self.offset[found + k] <= x ? k : 0;
     return found;
 }
-float window_lines_offset_at(WindowLines self, float texels) {
+float window_lines_offset_at(const WindowLines self, float texels) {
     return slope_interval_offset_at(self.slopes, texels * self.texel_size);
 }
-float window_lines_position_at(WindowLines self, float x) {
+float window_lines_position_at(const WindowLines self, float x) {
     return slope_interval_angle_at(self.slopes, x) / self.texel_size;
 }
 /// Texels of a cell.
@@ -101,7 +101,7 @@ TexelInterval window_lines_interval(WindowLines self, int cell) {
 }
 
 /// The cosine at the centre of each cell.
-void window_cells_find_far_angles(TexturePlane plane, WindowLines x, WindowLines y, float distance,
+void window_cells_find_far_angles(const TexturePlane plane, WindowLines x, WindowLines y, float distance,
                                   inout float angle[kNusseltCells * kNusseltCells]) {
     float scale = abs(distance) * texture_plane_area(plane);
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) {
@@ -115,7 +115,8 @@ void window_cells_find_far_angles(TexturePlane plane, WindowLines x, WindowLines
 }
 
 /// \param sign of the distance of the plane.
-void window_cells_find_near_angles(TexturePlane plane, WindowLines x, WindowLines y, float sign_of_distance,
+void window_cells_find_near_angles(const TexturePlane plane, WindowLines x, WindowLines y,
+                                   float sign_of_distance,
                                    inout float angle[kNusseltCells * kNusseltCells]) {
     const int n = kNusseltCells;
     vec2 len = vec2(nusselt_length(plane.side_x), nusselt_length(plane.side_y));
@@ -153,7 +154,7 @@ void window_cells_find_near_angles(TexturePlane plane, WindowLines x, WindowLine
 /// Projected solid angles [sr] of all cells, cell (i, j) at 8 j + i, as if the horizon cut none of them. They are not
 /// zero, but at least as large as their rounding errors.
 /// \param plane with coordinates of the order of its distance, in shading space or in the cosine space of a lobe.
-void window_cells_find_angles(TexturePlane plane, WindowLines x, WindowLines y,
+void window_cells_find_angles(const TexturePlane plane, const WindowLines x, const WindowLines y,
                               out float angle[kNusseltCells * kNusseltCells]) {
     const float far = 1.0 / 16.0; // kFarIfCut of C++ for float
     vec2 low = vec2(x.offset[0], y.offset[0]);

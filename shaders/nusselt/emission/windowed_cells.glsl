@@ -29,14 +29,14 @@ struct WindowedCells {
 };
 
 /// A vertex of the outline in the plane at distance one.
-vec2 windowed_view_vertex(WindowedView self, int k) {
+vec2 windowed_view_vertex(const WindowedView self, int k) {
     float inverse = 1.0 / self.distance;
     NUSSELT_PRECISE vec2 offset = inverse * (windowed_light_vertex(self.light, k) - self.nearest);
     NUSSELT_PRECISE vec2 vertex = offset - vec2(self.columns.slopes.move, self.rows.slopes.move);
     return vertex;
 }
 /// Whether all of a rectangle is inside of the outline.
-bool windowed_view_contains(WindowedView self, TextureRectangle rectangle) {
+bool windowed_view_contains(const WindowedView self, const TextureRectangle rectangle) {
     int count = windowed_light_vertices(self.light);
     bool inside = true;
     for (int k = 0; k < count; ++k)
@@ -45,7 +45,7 @@ bool windowed_view_contains(WindowedView self, TextureRectangle rectangle) {
     return inside;
 }
 /// The part of a rectangle inside of the outline.
-TexturePart windowed_view_part_in(WindowedView self, TextureRectangle rectangle) {
+TexturePart windowed_view_part_in(const WindowedView self, const TextureRectangle rectangle) {
     TexturePart part;
     part.count = windowed_light_vertices(self.light);
     for (int k = 0; k < kNusseltMostCorners; ++k)
@@ -60,7 +60,7 @@ SlopeInterval window_box_interval(float from, float to, float nearest, float foo
     return SlopeInterval(inverse * (nearest - foot), low, high, 0.0);
 }
 
-TexelInterval window_texels(SlopeInterval slopes, TableAxis axis, float texel_size) {
+TexelInterval window_texels(const SlopeInterval slopes, const TableAxis axis, float texel_size) {
     return table_axis_interval(axis, slope_interval_angle_at(slopes, slopes.low) / texel_size,
                                slope_interval_angle_at(slopes, slopes.high) / texel_size);
 }
@@ -73,7 +73,7 @@ float window_slope_at(int i, float angle_low, float texel_size) {
 }
 
 /// The part of a box between two lines of texels and within the slopes of a domain.
-SlopeInterval window_lit_part(SlopeInterval box, TexelInterval texels, int begin, int end, float angle_low,
+SlopeInterval window_lit_part(const SlopeInterval box, const TexelInterval texels, int begin, int end, float angle_low,
                               float texel_size, float from, float to) {
     if (begin > texels.first) from = nusselt_max(window_slope_at(begin, angle_low, texel_size), from);
     if (end <= texels.last) to = nusselt_min(window_slope_at(end, angle_low, texel_size), to);
@@ -83,7 +83,7 @@ SlopeInterval window_lit_part(SlopeInterval box, TexelInterval texels, int begin
 /// Finds the lit part of the light in the plane at distance one, and the lines of its cells. The image is the plane.
 /// \param plane of the light in shading space [m].
 /// \param light first word.
-WindowedView windowed_view_prepare(WindowPlane plane, uint light) {
+WindowedView windowed_view_prepare(const WindowPlane plane, uint light) {
     WindowedView self;
     self.light = light;
     self.table = windowed_light_table(light);
@@ -159,18 +159,18 @@ TextureRectangle windowed_view_rectangle(WindowedView self, ivec2 cell) {
                             vec2(self.columns.offset[cell.x + 1], self.rows.offset[cell.y + 1]));
 }
 /// The part of a cell inside of the outline.
-TexturePart windowed_view_part(WindowedView self, ivec2 cell) {
+TexturePart windowed_view_part(const WindowedView self, ivec2 cell) {
     TextureRectangle rectangle = windowed_view_rectangle(self, cell);
     if (self.is_whole || windowed_view_contains(self, rectangle)) return texture_part_of(rectangle);
     return windowed_view_part_in(self, rectangle);
 }
-TableWindow windowed_view_window(WindowedView self, ivec2 cell) {
+TableWindow windowed_view_window(const WindowedView self, ivec2 cell) {
     return TableWindow(self.table, self.columns.axis, self.rows.axis, window_lines_interval(self.columns, cell.x),
                        window_lines_interval(self.rows, cell.y));
 }
 
 /// The projected solid angle of a part of the image, also of one with more corners than polygons may have.
-float windowed_view_clipped_angle(WindowedView self, TexturePart part) {
+float windowed_view_clipped_angle(const WindowedView self, TexturePart part) {
     float sum = 0.0;
     for (int first = 1; first < kNusseltMostCorners - 1; first += NUSSELT_MAX_VERTICES - 2) {
         if (first + 1 >= part.count) break;
@@ -183,14 +183,14 @@ float windowed_view_clipped_angle(WindowedView self, TexturePart part) {
 }
 
 /// The mean radiance of a cell over that of the table.
-float windowed_view_mean(WindowedView self, ivec2 cell) {
+float windowed_view_mean(const WindowedView self, ivec2 cell) {
     TableWindow window = windowed_view_window(self, cell);
     float solid_angle = table_window_sum(window, kNusseltSolidAngle);
     return solid_angle > 0.0 ? table_window_sum(window, kNusseltWeight) / solid_angle : 0.0;
 }
 
 /// Adds up the weights of cells along columns.
-WindowedCells windowed_cells_prepare(WindowedView view) {
+WindowedCells windowed_cells_prepare(const WindowedView view) {
     WindowedCells self;
     self.view = view;
     self.sums.total = 0.0;
@@ -217,12 +217,12 @@ WindowedCells windowed_cells_prepare(WindowedView view) {
 }
 
 /// The sum over cells of mean radiance times projected solid angle of the image.
-float windowed_cells_total(WindowedCells self) {
+float windowed_cells_total(const WindowedCells self) {
     return self.sums.total > 0.0 ? rectified_table_mean(self.view.table) * self.sums.total : 0.0;
 }
 
 /// The mean of the channels of a cell, per their mean.
-vec3 windowed_view_hue(WindowedView self, ivec2 cell) {
+vec3 windowed_view_hue(const WindowedView self, ivec2 cell) {
     TexelInterval x = window_lines_interval(self.columns, cell.x);
     TexelInterval y = window_lines_interval(self.rows, cell.y);
     vec3 top = rectified_table_colour_below(self.table, x.last + 1, y.last + 1) -
@@ -235,7 +235,7 @@ vec3 windowed_view_hue(WindowedView self, ivec2 cell) {
 }
 
 /// See WindowedPolygon::unshadowed() of C++.
-vec3 windowed_cells_unshadowed(WindowedCells self) {
+vec3 windowed_cells_unshadowed(const WindowedCells self) {
     vec3 sum = vec3(0.0);
     if (!(self.sums.total > 0.0)) return sum;
     for (int cell = 0; cell < kNusseltCells * kNusseltCells; ++cell) {
@@ -248,7 +248,7 @@ vec3 windowed_cells_unshadowed(WindowedCells self) {
 }
 
 /// Unit directions to the corners of a cell, and in between.
-void windowed_view_directions(WindowedView self, ivec2 cell, out vec3 wi[5]) {
+void windowed_view_directions(const WindowedView self, ivec2 cell, out vec3 wi[5]) {
     TextureRectangle r = windowed_view_rectangle(self, cell);
     wi[0] = nusselt_normalize(texture_plane_point_at(self.plane, r.low));
     wi[1] = nusselt_normalize(texture_plane_point_at(self.plane, vec2(r.high.x, r.low.y)));
@@ -261,7 +261,8 @@ void windowed_view_directions(WindowedView self, ivec2 cell, out vec3 wi[5]) {
 /// \param part      of the cell inside of the outline.
 /// \param corners   cosine or lobe in the directions of windowed_view_directions().
 /// \param at_centre in the last one.
-bool windowed_view_is_smooth(WindowedView self, ivec2 cell, TexturePart part, vec4 corners, float at_centre) {
+bool windowed_view_is_smooth(const WindowedView self, ivec2 cell, const TexturePart part, vec4 corners,
+                             float at_centre) {
     if (part.count > NUSSELT_MAX_VERTICES) return false;
     float variation = table_window_variation(windowed_view_window(self, cell));
     float mean = 2.0 / 3.0 * at_centre + 1.0 / 12.0 * ((corners.x + corners.y) + (corners.z + corners.w));
@@ -279,13 +280,13 @@ bool windowed_view_is_smooth(WindowedView self, ivec2 cell, TexturePart part, ve
     return !(variation > solid_angle + 8.0 * kNusseltEpsilon) || !(mean > 0.0) || !(variation > spread);
 }
 
-vec2 windowed_view_clamped(WindowedView self, vec2 at, ivec2 cell) {
+vec2 windowed_view_clamped(const WindowedView self, vec2 at, ivec2 cell) {
     TextureRectangle r = windowed_view_rectangle(self, cell);
     return vec2(nusselt_max(nusselt_min(at.x, r.high.x), r.low.x), nusselt_max(nusselt_min(at.y, r.high.y), r.low.y));
 }
 
 /// Offsets of the point in a direction.
-vec2 windowed_view_offset_of(WindowedView self, vec3 p) {
+vec2 windowed_view_offset_of(const WindowedView self, vec3 p) {
     float z = dot(self.frame.n, p);
     float inverse = 1.0 / nusselt_max(z, kNusseltSmallestNormal);
     return vec2((dot(self.frame.t, p) - self.columns.slopes.origin * z) * inverse,
@@ -293,37 +294,37 @@ vec2 windowed_view_offset_of(WindowedView self, vec3 p) {
 }
 
 /// Whether an offset is in an interval, up to rounding.
-bool slope_interval_contains(SlopeInterval self, float offset) {
+bool slope_interval_contains(const SlopeInterval self, float offset) {
     float slope = self.origin + offset;
     float rounding = 8.0 * kNusseltEpsilon * (1.0 + slope * slope);
     return offset >= self.low - rounding && offset <= self.high + rounding;
 }
 /// Whether a direction meets the window, up to rounding.
 /// \param at its offsets.
-bool windowed_view_is_hit(WindowedView self, vec3 wi, vec2 at) {
+bool windowed_view_is_hit(const WindowedView self, vec3 wi, vec2 at) {
     return dot(self.frame.n, wi) > 0.0 && slope_interval_contains(self.columns.slopes, at.x) &&
            slope_interval_contains(self.rows.slopes, at.y);
 }
 /// The cell with offsets.
-CellChoice windowed_cells_cell_at(WindowedCells self, vec2 at) {
+CellChoice windowed_cells_cell_at(const WindowedCells self, vec2 at) {
     return cell_sums_cell(self.sums, ivec2(window_lines_cell_at(self.view.columns, at.x),
                                            window_lines_cell_at(self.view.rows, at.y)));
 }
 
 /// Positions in texels of offsets of slopes.
-vec2 windowed_view_texels(WindowedView self, vec2 at) {
+vec2 windowed_view_texels(const WindowedView self, vec2 at) {
     return vec2(window_lines_position_at(self.columns, at.x), window_lines_position_at(self.rows, at.y));
 }
-float table_axis_position(TableAxis self, float offset) {
+float table_axis_position(const TableAxis self, float offset) {
     return below_one((float(self.texel) + (self.fraction + offset)) / float(self.count));
 }
 /// The position in the table, from 0 to 1.
-vec2 windowed_view_table_position(WindowedView self, vec2 texels) {
+vec2 windowed_view_table_position(const WindowedView self, vec2 texels) {
     return vec2(table_axis_position(self.columns.axis, texels.x), table_axis_position(self.rows.axis, texels.y));
 }
 
 /// The sample of the technique in a smooth cell.
-TexturedSample windowed_view_smooth_sample(WindowedView self, CellChoice cell, LightSample s) {
+TexturedSample windowed_view_smooth_sample(const WindowedView self, const CellChoice cell, const LightSample s) {
     vec2 at = windowed_view_clamped(self, windowed_view_offset_of(self, s.p), cell.at);
     return TexturedSample(s.wi, cell.probability * s.pdf, self.distance * texture_plane_point_at(self.plane, at),
                           windowed_view_table_position(self, windowed_view_texels(self, at)));
@@ -332,7 +333,8 @@ TexturedSample windowed_view_smooth_sample(WindowedView self, CellChoice cell, L
 /// The density of a direction in a texel.
 /// \param window of the cell.
 /// \param at     offsets of the direction.
-float windowed_view_texel_density(WindowedView self, CellChoice cell, TableWindow window, WindowPoint point, vec2 at,
+float windowed_view_texel_density(const WindowedView self, const CellChoice cell, const TableWindow window,
+                                  const WindowPoint point, vec2 at,
                                   vec3 wi) {
     if (!(wi.z > self.lowest)) return 0.0;
     if (!self.is_whole && !windowed_view_contains(self, windowed_view_rectangle(self, cell.at)) &&
@@ -346,7 +348,7 @@ float windowed_view_texel_density(WindowedView self, CellChoice cell, TableWindo
 }
 
 /// The sample of a texel in a busy cell.
-TexturedSample windowed_view_busy_sample(WindowedView self, CellChoice cell) {
+TexturedSample windowed_view_busy_sample(const WindowedView self, const CellChoice cell) {
     TableWindow window = windowed_view_window(self, cell.at);
     WindowPoint point = table_window_sample(window, cell.u);
     vec2 at = vec2(window_lines_offset_at(self.columns, point.offset.x),
@@ -360,14 +362,14 @@ TexturedSample windowed_view_busy_sample(WindowedView self, CellChoice cell) {
 
 /// The density of a direction in a busy cell.
 /// \param at its offsets.
-float windowed_view_busy_density(WindowedView self, CellChoice cell, vec3 wi, vec2 at) {
+float windowed_view_busy_density(const WindowedView self, const CellChoice cell, vec3 wi, vec2 at) {
     TableWindow window = windowed_view_window(self, cell.at);
     return windowed_view_texel_density(self, cell, window, table_window_point_at(window, windowed_view_texels(self, at)),
                                        at, wi);
 }
 
 /// The random numbers inside of a busy cell for offsets.
-vec2 windowed_view_busy_invert(WindowedView self, CellChoice cell, vec2 at) {
+vec2 windowed_view_busy_invert(const WindowedView self, const CellChoice cell, vec2 at) {
     return table_window_invert(windowed_view_window(self, cell.at), windowed_view_texels(self, at));
 }
 

@@ -24,7 +24,7 @@ struct WindowPlane {
 };
 
 /// The plane seen from a shading point: the point becomes the origin, the normal of the frame +z.
-WindowPlane to_shading_space(WindowPlane world, vec3 point, Frame frame) {
+WindowPlane to_shading_space(const WindowPlane world, vec3 point, const Frame frame) {
     return WindowPlane(frame_to_local(frame, world.corner - point),
                        Frame(frame_to_local(frame, world.frame.t), frame_to_local(frame, world.frame.b),
                              frame_to_local(frame, world.frame.n)));

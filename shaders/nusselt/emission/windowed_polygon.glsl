@@ -19,24 +19,28 @@ struct WindowedPolygon {
     CellSums sums;
 };
 
-WindowedCells windowed_polygon_cells(WindowedPolygon self) { return WindowedCells(self.view, self.sums); }
+WindowedCells windowed_polygon_cells(const WindowedPolygon self) { return WindowedCells(self.view, self.sums); }
 
 /// \param plane of the light in shading space [m]: to_shading_space(windowed_light_plane(light), point, frame).
 /// \param light number of the first word of the light (windowed_light.glsl).
-WindowedPolygon windowed_polygon_prepare(WindowPlane plane, uint light) {
+WindowedPolygon windowed_polygon_prepare(const WindowPlane plane, uint light) {
     WindowedCells cells = windowed_cells_prepare(windowed_view_prepare(plane, light));
     return WindowedPolygon(cells.view, cells.sums);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle [W/m^2].
-float windowed_polygon_measure(WindowedPolygon self) { return windowed_cells_total(windowed_polygon_cells(self)); }
+float windowed_polygon_measure(const WindowedPolygon self) {
+    return windowed_cells_total(windowed_polygon_cells(self));
+}
 
 /// The radiance that is reflected without shadows per albedo, per channel [W/(sr m^2)]: the coefficient of heuristics
 /// for multiple importance sampling. Colours come from whole texels.
-vec3 windowed_polygon_unshadowed(WindowedPolygon self) { return windowed_cells_unshadowed(windowed_polygon_cells(self)); }
+vec3 windowed_polygon_unshadowed(const WindowedPolygon self) {
+    return windowed_cells_unshadowed(windowed_polygon_cells(self));
+}
 
 /// \param part of the cell inside of the outline.
-bool windowed_polygon_is_smooth(WindowedView view, ivec2 cell, TexturePart part) {
+bool windowed_polygon_is_smooth(const WindowedView view, ivec2 cell, const TexturePart part) {
     vec3 wi[5];
     windowed_view_directions(view, cell, wi);
     vec4 corners = vec4(nusselt_max(wi[0].z, 0.0), nusselt_max(wi[1].z, 0.0), nusselt_max(wi[2].z, 0.0),
@@ -45,14 +49,14 @@ bool windowed_polygon_is_smooth(WindowedView view, ivec2 cell, TexturePart part)
 }
 
 /// The technique inside of a smooth cell.
-PolygonProjectedSolidAngle windowed_polygon_technique(WindowedView view, TexturePart part) {
+PolygonProjectedSolidAngle windowed_polygon_technique(const WindowedView view, const TexturePart part) {
     return polygon_projected_solid_angle_prepare(polygon_in(view.plane, part));
 }
 
 /// \param u in [0, 1)^2; x chooses along the x axis of the light, y along its y axis: stratification survives in part.
 /// \return `at` is the position in the table, from 0 to 1. The point of a portal is only where the ray leaves: shadow
 ///         rays go on along wi to infinity.
-TexturedSample windowed_polygon_sample(WindowedPolygon self, vec2 u) {
+TexturedSample windowed_polygon_sample(const WindowedPolygon self, vec2 u) {
     if (!(self.sums.total > 0.0)) return no_textured_sample();
     WindowedView view = self.view;
     CellChoice cell = cell_sums_choose(self.sums, u);
@@ -63,7 +67,7 @@ TexturedSample windowed_polygon_sample(WindowedPolygon self, vec2 u) {
 }
 
 /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
-float windowed_polygon_pdf(WindowedPolygon self, vec3 wi) {
+float windowed_polygon_pdf(const WindowedPolygon self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return 0.0;
     WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
@@ -76,7 +80,7 @@ float windowed_polygon_pdf(WindowedPolygon self, vec3 wi) {
 }
 
 /// The random numbers for which the sample is wi, a unit direction with a density.
-vec2 windowed_polygon_invert(WindowedPolygon self, vec3 wi) {
+vec2 windowed_polygon_invert(const WindowedPolygon self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return vec2(0.0);
     WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);

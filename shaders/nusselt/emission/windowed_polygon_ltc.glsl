@@ -21,11 +21,11 @@ struct WindowedPolygonLtc {
     Ltc ltc;
 };
 
-WindowedCells windowed_polygon_ltc_cells(WindowedPolygonLtc self) { return WindowedCells(self.view, self.sums); }
+WindowedCells windowed_polygon_ltc_cells(const WindowedPolygonLtc self) { return WindowedCells(self.view, self.sums); }
 
 /// \param plane of the light in shading space [m]: to_shading_space(windowed_light_plane(light), point, frame).
 /// \param light number of the first word of the light (windowed_light.glsl).
-WindowedPolygonLtc windowed_polygon_ltc_prepare(WindowPlane plane, uint light, Ltc ltc) {
+WindowedPolygonLtc windowed_polygon_ltc_prepare(const WindowPlane plane, uint light, const Ltc ltc) {
     WindowedView view = windowed_view_prepare(plane, light);
     view.image = TexturePlane(ltc_to_cosine(ltc, view.plane.corner), ltc_to_cosine(ltc, view.plane.side_x),
                               ltc_to_cosine(ltc, view.plane.side_y),
@@ -36,15 +36,17 @@ WindowedPolygonLtc windowed_polygon_ltc_prepare(WindowPlane plane, uint light, L
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe [W/(sr m^2)].
-float windowed_polygon_ltc_measure(WindowedPolygonLtc self) {
+float windowed_polygon_ltc_measure(const WindowedPolygonLtc self) {
     return (1.0 / kNusseltPi) * windowed_cells_total(windowed_polygon_ltc_cells(self));
 }
 
 /// See windowed_polygon_unshadowed().
-vec3 windowed_polygon_ltc_unshadowed(WindowedPolygonLtc self) { return windowed_cells_unshadowed(windowed_polygon_ltc_cells(self)); }
+vec3 windowed_polygon_ltc_unshadowed(const WindowedPolygonLtc self) {
+    return windowed_cells_unshadowed(windowed_polygon_ltc_cells(self));
+}
 
 /// \param part of the cell inside of the outline.
-bool windowed_polygon_ltc_is_smooth(WindowedPolygonLtc self, ivec2 cell, TexturePart part) {
+bool windowed_polygon_ltc_is_smooth(const WindowedPolygonLtc self, ivec2 cell, const TexturePart part) {
     vec3 wi[5];
     windowed_view_directions(self.view, cell, wi);
     vec4 corners = vec4(ltc_density(self.ltc, wi[0]), ltc_density(self.ltc, wi[1]), ltc_density(self.ltc, wi[2]),
@@ -53,12 +55,12 @@ bool windowed_polygon_ltc_is_smooth(WindowedPolygonLtc self, ivec2 cell, Texture
 }
 
 /// The technique inside of a smooth cell.
-PolygonLtc windowed_polygon_ltc_technique(WindowedPolygonLtc self, TexturePart part) {
+PolygonLtc windowed_polygon_ltc_technique(const WindowedPolygonLtc self, const TexturePart part) {
     return polygon_ltc_prepare(polygon_in(self.view.plane, part), self.ltc);
 }
 
 /// \param u in [0, 1)^2; see windowed_polygon_sample().
-TexturedSample windowed_polygon_ltc_sample(WindowedPolygonLtc self, vec2 u) {
+TexturedSample windowed_polygon_ltc_sample(const WindowedPolygonLtc self, vec2 u) {
     if (!(self.sums.total > 0.0)) return no_textured_sample();
     WindowedView view = self.view;
     CellChoice cell = cell_sums_choose(self.sums, u);
@@ -69,7 +71,7 @@ TexturedSample windowed_polygon_ltc_sample(WindowedPolygonLtc self, vec2 u) {
 }
 
 /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
-float windowed_polygon_ltc_pdf(WindowedPolygonLtc self, vec3 wi) {
+float windowed_polygon_ltc_pdf(const WindowedPolygonLtc self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return 0.0;
     WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);
@@ -82,7 +84,7 @@ float windowed_polygon_ltc_pdf(WindowedPolygonLtc self, vec3 wi) {
 }
 
 /// The random numbers for which the sample is wi, a unit direction with a density.
-vec2 windowed_polygon_ltc_invert(WindowedPolygonLtc self, vec3 wi) {
+vec2 windowed_polygon_ltc_invert(const WindowedPolygonLtc self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return vec2(0.0);
     WindowedView view = self.view;
     vec2 at = windowed_view_offset_of(view, wi);

@@ -57,7 +57,7 @@ DirectLight direct_light_prepare(vec3 diffuse_albedo, vec3 specular_albedo, floa
 }
 
 /// A sample of technique `drawn`, 0 or 1, as it counts: none of technique 1 where the surface is not glossy.
-LightSample direct_light_drawn(DirectLight self, int drawn, LightSample s) {
+LightSample direct_light_drawn(const DirectLight self, int drawn, LightSample s) {
     if (drawn == 1 && !self.glossy) s.pdf = 0.0;
     return s;
 }
@@ -66,8 +66,8 @@ LightSample direct_light_drawn(DirectLight self, int drawn, LightSample s) {
 /// \param s                         by direct_light_drawn().
 /// \param diffuse_pdf, specular_pdf densities of both techniques in direction s.wi.
 /// \param brdf                      in direction s.wi.
-MisSample direct_light_densities_at(DirectLight self, LightSample s, float diffuse_pdf, float specular_pdf,
-                                    BrdfComponents brdf) {
+MisSample direct_light_densities_at(const DirectLight self, const LightSample s, float diffuse_pdf, float specular_pdf,
+                                    const BrdfComponents brdf) {
     // NaN, which no technique should return, counts as drawn, so that it is noticed.
     bool drawn = s.pdf != 0.0;
     bool above = drawn && s.wi.z > 0.0;
@@ -76,7 +76,7 @@ MisSample direct_light_densities_at(DirectLight self, LightSample s, float diffu
                      vec3[2](above ? s.wi.z * brdf.diffuse : vec3(0.0), above ? s.wi.z * brdf.specular : vec3(0.0)));
 }
 
-DirectLightSample direct_light_combined(LightSample s, MisEstimate estimate) {
+DirectLightSample direct_light_combined(const LightSample s, const MisEstimate estimate) {
     // At a line that almost meets the point this overflows, and infinity times no visibility is NaN.
     vec3 f = estimate.shadowed;
     vec3 limited = vec3(f.x > kNusseltLargest ? 0.0 : f.x, f.y > kNusseltLargest ? 0.0 : f.y,

@@ -47,23 +47,23 @@ vec3 ratio_or_zero(vec3 numerator, vec3 denominator) {
 }
 
 /// Sum of n_k p_k: the density of all samples taken together.
-float total_density(MisTechniques techniques, MisSample at) {
+float total_density(const MisTechniques techniques, const MisSample at) {
     return nusselt_fma(techniques.samples[1], at.pdf[1], techniques.samples[0] * at.pdf[0]);
 }
 
 /// Sum of c_k p_k: what the integrand ought to be.
-vec3 expected_integrand(MisTechniques techniques, MisSample at) {
+vec3 expected_integrand(const MisTechniques techniques, const MisSample at) {
     return nusselt_fma(at.pdf[1], techniques.unshadowed[1], at.pdf[0] * techniques.unshadowed[0]);
 }
 
 /// c_k / n_k.
-vec3 mis_coefficient(MisTechniques techniques, int k) {
+vec3 mis_coefficient(const MisTechniques techniques, int k) {
     float samples = k == 0 ? techniques.samples[0] : techniques.samples[1];
     return (1.0 / samples) * (k == 0 ? techniques.unshadowed[0] : techniques.unshadowed[1]);
 }
 
 /// n_k p_k.
-float mis_density(MisTechniques techniques, MisSample at, int k) {
+float mis_density(const MisTechniques techniques, const MisSample at, int k) {
     return k == 0 ? techniques.samples[0] * at.pdf[0] : techniques.samples[1] * at.pdf[1];
 }
 
@@ -74,13 +74,13 @@ float mis_density(MisTechniques techniques, MisSample at, int k) {
 // optimal heuristic, densities must integrate to 1.
 
 /// Weights proportional to n_k p_k.
-MisEstimate balance_heuristic(MisTechniques techniques, MisSample at) {
+MisEstimate balance_heuristic(const MisTechniques techniques, const MisSample at) {
     float factor = ratio_or_zero(1.0, total_density(techniques, at));
     return MisEstimate(factor * (at.component[0] + at.component[1]), vec3(0.0));
 }
 
 /// Weights proportional to the square of n_k p_k.
-MisEstimate power_heuristic(int drawn, MisTechniques techniques, MisSample at) {
+MisEstimate power_heuristic(int drawn, const MisTechniques techniques, const MisSample at) {
     // Relative to their sum, the squares of densities neither overflow nor vanish.
     float scale = ratio_or_zero(1.0, total_density(techniques, at));
     float share0 = scale * mis_density(techniques, at, 0);
@@ -92,14 +92,14 @@ MisEstimate power_heuristic(int drawn, MisTechniques techniques, MisSample at) {
 
 /// Weights proportional to c_k p_k: no noise at all where the coefficients are right and nothing casts a shadow.
 /// Penumbrae suffer where the coefficient of a technique is small.
-MisEstimate weighted_balance_heuristic(int drawn, MisTechniques techniques, MisSample at) {
+MisEstimate weighted_balance_heuristic(int drawn, const MisTechniques techniques, const MisSample at) {
     vec3 factor = ratio_or_zero(mis_coefficient(techniques, drawn), expected_integrand(techniques, at));
     return MisEstimate(factor * (at.component[0] + at.component[1]), vec3(0.0));
 }
 
 /// A blend of weighted balance and balance heuristic: the robust choice.
 /// \param visibility v in [0, 1], an estimate of the visible share of the light; 0.5 is a good one.
-MisEstimate clamped_optimal_heuristic(int drawn, float visibility, MisTechniques techniques, MisSample at) {
+MisEstimate clamped_optimal_heuristic(int drawn, float visibility, const MisTechniques techniques, const MisSample at) {
     vec3 weighted = weighted_balance_heuristic(drawn, techniques, at).shadowed;
     vec3 balanced = balance_heuristic(techniques, at).shadowed;
     return MisEstimate(nusselt_fma(visibility, weighted, (1.0 - visibility) * balanced), vec3(0.0));
@@ -108,7 +108,7 @@ MisEstimate clamped_optimal_heuristic(int drawn, float visibility, MisTechniques
 /// Optimal MIS: the sum of v c_k p_k is a control variate. Least variance if v is right everywhere; estimates can be
 /// negative.
 /// \param visibility v in [0, 1], an estimate of the visible share of the light.
-MisEstimate optimal_heuristic(int drawn, float visibility, MisTechniques techniques, MisSample at) {
+MisEstimate optimal_heuristic(int drawn, float visibility, const MisTechniques techniques, const MisSample at) {
     float factor = ratio_or_zero(1.0, total_density(techniques, at));
     vec3 expected = factor * expected_integrand(techniques, at);
     return MisEstimate(factor * (at.component[0] + at.component[1]),
@@ -117,7 +117,7 @@ MisEstimate optimal_heuristic(int drawn, float visibility, MisTechniques techniq
 
 /// Each technique estimates its own component only, for comparison: the noise of the components adds up. What technique
 /// 1 cannot sample of component 1 is left to technique 0, so that nothing gets lost.
-MisEstimate separate_components(int drawn, MisTechniques techniques, MisSample at) {
+MisEstimate separate_components(int drawn, const MisTechniques techniques, const MisSample at) {
     float factor = ratio_or_zero(1.0, mis_density(techniques, at, drawn));
     vec3 component = at.component[1];
     if (drawn == 0) component = at.component[0] + (at.pdf[1] > 0.0 ? vec3(0.0) : at.component[1]);
@@ -137,7 +137,8 @@ const int kNusseltMisSeparate = 6;
 /// \param heuristic  kNusseltMis*, but not kNusseltMisOneSample.
 /// \param drawn      the technique that has sampled, 0 or 1.
 /// \param visibility of the optimal heuristics; the others have no use for it.
-MisEstimate mis_estimate(int heuristic, int drawn, float visibility, MisTechniques techniques, MisSample at) {
+MisEstimate mis_estimate(int heuristic, int drawn, float visibility, const MisTechniques techniques,
+                         const MisSample at) {
     switch (heuristic) {
     case kNusseltMisBalance:
         return balance_heuristic(techniques, at);
@@ -160,7 +161,7 @@ struct OneSampleChoice {
 };
 
 /// \param techniques the numbers of samples are not used.
-OneSampleChoice one_sample_choice_prepare(MisTechniques techniques) {
+OneSampleChoice one_sample_choice_prepare(const MisTechniques techniques) {
     const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
     float luminance0 = dot(kLuminance, techniques.unshadowed[0]);
     float luminance1 = dot(kLuminance, techniques.unshadowed[1]);
@@ -175,13 +176,13 @@ struct OneSampleDecision {
 };
 
 /// \param u in [0, 1).
-OneSampleDecision one_sample_choice_decide(OneSampleChoice self, float u) {
+OneSampleDecision one_sample_choice_decide(const OneSampleChoice self, float u) {
     if (u < self.probability[0]) return OneSampleDecision(0, below_one(ratio_or_zero(u, self.probability[0])));
     return OneSampleDecision(1, below_one(ratio_or_zero(u - self.probability[0], self.probability[1])));
 }
 
 /// The estimate of that sample.
-MisEstimate one_sample_choice_estimate(OneSampleChoice self, MisSample at) {
+MisEstimate one_sample_choice_estimate(const OneSampleChoice self, const MisSample at) {
     float density = nusselt_fma(self.probability[1], at.pdf[1], self.probability[0] * at.pdf[0]);
     return MisEstimate(ratio_or_zero(1.0, density) * (at.component[0] + at.component[1]), vec3(0.0));
 }

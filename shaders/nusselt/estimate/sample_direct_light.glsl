@@ -33,11 +33,11 @@ struct WorldLightSamples {
 };
 
 /// The surface that sample_direct_light() sees at a point.
-GlossySurface glossy_surface_at(SurfacePoint point, SpecularFit fit) {
+GlossySurface glossy_surface_at(const SurfacePoint point, const SpecularFit fit) {
     return make_glossy_surface(dot(point.normal, point.wo), point.albedo, point.f0, point.roughness, fit);
 }
 
-WorldLightSample to_world(Frame frame, DirectLightSample s) {
+WorldLightSample to_world(const Frame frame, const DirectLightSample s) {
     return WorldLightSample(frame_to_world(frame, s.wi), nusselt_length(s.p), s.shadowed, s.constant);
 }
 
@@ -50,7 +50,7 @@ struct PolygonDirectLight {
 };
 
 /// \param light in shading space with wo in the xz half-plane [m].
-PolygonDirectLight polygon_direct_light_prepare(ConvexPolygon light, GlossySurface surface) {
+PolygonDirectLight polygon_direct_light_prepare(const ConvexPolygon light, const GlossySurface surface) {
     PolygonDirectLight self;
     self.surface = surface;
     self.diffuse = polygon_projected_solid_angle_prepare(light);
@@ -61,12 +61,12 @@ PolygonDirectLight polygon_direct_light_prepare(ConvexPolygon light, GlossySurfa
     return self;
 }
 
-LightSample polygon_direct_light_draw(PolygonDirectLight self, int drawn, vec2 u) {
+LightSample polygon_direct_light_draw(const PolygonDirectLight self, int drawn, vec2 u) {
     if (drawn == 0) return polygon_projected_solid_angle_sample(self.diffuse, u);
     return direct_light_drawn(self.estimator, 1, polygon_ltc_sample(self.specular, u));
 }
 
-MisSample polygon_direct_light_densities_at(PolygonDirectLight self, LightSample s) {
+MisSample polygon_direct_light_densities_at(const PolygonDirectLight self, const LightSample s) {
     return direct_light_densities_at(self.estimator, s, polygon_projected_solid_angle_pdf(self.diffuse, s.wi),
                                      polygon_ltc_pdf(self.specular, s.wi),
                                      frostbite_eval_components(self.surface.brdf, s.wi));
@@ -74,7 +74,7 @@ MisSample polygon_direct_light_densities_at(PolygonDirectLight self, LightSample
 
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
 /// \param u     random in [0, 1)^2.
-DirectLightSample polygon_direct_light_sample(PolygonDirectLight self, int heuristic, float visibility, int drawn,
+DirectLightSample polygon_direct_light_sample(const PolygonDirectLight self, int heuristic, float visibility, int drawn,
                                               vec2 u) {
     LightSample s = polygon_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
@@ -83,7 +83,7 @@ DirectLightSample polygon_direct_light_sample(PolygonDirectLight self, int heuri
 
 /// A sample of either technique, chosen at random: an estimate by itself.
 /// \param u random in [0, 1)^2.
-DirectLightSample polygon_direct_light_sample_one(PolygonDirectLight self, vec2 u) {
+DirectLightSample polygon_direct_light_sample_one(const PolygonDirectLight self, vec2 u) {
     OneSampleChoice choice = one_sample_choice_prepare(self.estimator.techniques);
     OneSampleDecision decision = one_sample_choice_decide(choice, u.x);
     LightSample s = polygon_direct_light_draw(self, decision.chosen, vec2(decision.u, u.y));
@@ -99,7 +99,7 @@ struct LineDirectLight {
 };
 
 /// \param light in shading space with wo in the xz half-plane [m].
-LineDirectLight line_direct_light_prepare(LineSegment light, GlossySurface surface) {
+LineDirectLight line_direct_light_prepare(const LineSegment light, const GlossySurface surface) {
     LineDirectLight self;
     self.surface = surface;
     self.diffuse = line_projected_solid_angle_prepare(light);
@@ -110,12 +110,12 @@ LineDirectLight line_direct_light_prepare(LineSegment light, GlossySurface surfa
     return self;
 }
 
-LightSample line_direct_light_draw(LineDirectLight self, int drawn, float u) {
+LightSample line_direct_light_draw(const LineDirectLight self, int drawn, float u) {
     if (drawn == 0) return line_projected_solid_angle_sample(self.diffuse, u);
     return direct_light_drawn(self.estimator, 1, line_ltc_sample(self.specular, u));
 }
 
-MisSample line_direct_light_densities_at(LineDirectLight self, LightSample s) {
+MisSample line_direct_light_densities_at(const LineDirectLight self, const LightSample s) {
     return direct_light_densities_at(self.estimator, s, line_projected_solid_angle_pdf(self.diffuse, s.wi),
                                      line_ltc_pdf(self.specular, s.wi),
                                      frostbite_eval_components(self.surface.brdf, s.wi));
@@ -123,7 +123,7 @@ MisSample line_direct_light_densities_at(LineDirectLight self, LightSample s) {
 
 /// \param drawn the technique that takes the sample: 0 for the diffuse component, 1 for the specular one.
 /// \param u     random in [0, 1).
-DirectLightSample line_direct_light_sample(LineDirectLight self, int heuristic, float visibility, int drawn,
+DirectLightSample line_direct_light_sample(const LineDirectLight self, int heuristic, float visibility, int drawn,
                                            float u) {
     LightSample s = line_direct_light_draw(self, drawn, u);
     return direct_light_combined(s, mis_estimate(heuristic, drawn, visibility, self.estimator.techniques,
@@ -132,7 +132,7 @@ DirectLightSample line_direct_light_sample(LineDirectLight self, int heuristic, 
 
 /// A sample of either technique, chosen at random: an estimate by itself.
 /// \param u random in [0, 1).
-DirectLightSample line_direct_light_sample_one(LineDirectLight self, float u) {
+DirectLightSample line_direct_light_sample_one(const LineDirectLight self, float u) {
     OneSampleChoice choice = one_sample_choice_prepare(self.estimator.techniques);
     OneSampleDecision decision = one_sample_choice_decide(choice, u);
     LightSample s = line_direct_light_draw(self, decision.chosen, decision.u);
@@ -146,7 +146,8 @@ DirectLightSample line_direct_light_sample_one(LineDirectLight self, float u) {
 /// \param heuristic  kNusseltMis* of mis_estimate(), such as kNusseltMisClampedOptimal.
 /// \param visibility of the heuristic, such as 0.5.
 /// \param u0, u1     independent points of [0, 1)^2 for both samples.
-WorldLightSamples sample_direct_light(SurfacePoint point, ConvexPolygon light, SpecularFit fit, int heuristic,
+WorldLightSamples sample_direct_light(const SurfacePoint point, const ConvexPolygon light, const SpecularFit fit,
+                                      int heuristic,
                                       float visibility, vec2 u0, vec2 u1) {
     Frame frame = shading_frame(point.normal, point.wo);
     PolygonDirectLight techniques = polygon_direct_light_prepare(to_shading_space(light, point.position, frame),
@@ -158,7 +159,8 @@ WorldLightSamples sample_direct_light(SurfacePoint point, ConvexPolygon light, S
 
 /// The same for a line; its emission is radiance times radius.
 /// \param u0, u1 independent numbers in [0, 1).
-WorldLightSamples sample_direct_light(SurfacePoint point, LineSegment light, SpecularFit fit, int heuristic,
+WorldLightSamples sample_direct_light(const SurfacePoint point, const LineSegment light, const SpecularFit fit,
+                                      int heuristic,
                                       float visibility, float u0, float u1) {
     Frame frame = shading_frame(point.normal, point.wo);
     LineDirectLight techniques =

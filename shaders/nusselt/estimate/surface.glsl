@@ -23,7 +23,7 @@ struct GlossySurface {
 bool is_glossy(vec3 specular_albedo) {
     return nusselt_max(nusselt_max(specular_albedo.x, specular_albedo.y), specular_albedo.z) > 0.0;
 }
-bool glossy_surface_is_glossy(GlossySurface self) { return is_glossy(self.specular_albedo); }
+bool glossy_surface_is_glossy(const GlossySurface self) { return is_glossy(self.specular_albedo); }
 
 /// The fit of a specular component by a table.
 struct SpecularFit {
@@ -36,14 +36,14 @@ float mean_f0(vec3 f0) { return (f0.x + f0.y + f0.z) * (1.0 / 3.0); }
 
 /// \param sum                of the eight neighbours, looked up with mean_f0(f0).
 /// \param of_black, of_white see ltc_table_albedo().
-SpecularFit fit_of(LtcTableEntry sum, float of_black, float of_white, vec3 f0) {
+SpecularFit fit_of(const LtcTableEntry sum, float of_black, float of_white, vec3 f0) {
     return SpecularFit(ltc_prepare(ltc_table_coefficients(sum)), ltc_table_albedo(of_black, of_white, f0));
 }
 
 /// The same for a Phong lobe.
 /// \param sum    of the eight neighbours, looked up with sqrt(phong_alpha(exponent)) and f0 = 0.
 /// \param albedo of the lobe at normal incidence.
-SpecularFit phong_fit_of(LtcTableEntry sum, vec3 albedo) {
+SpecularFit phong_fit_of(const LtcTableEntry sum, vec3 albedo) {
     LtcCoefficients fit = ltc_table_coefficients(sum);
     return SpecularFit(ltc_prepare(fit), fit.albedo * albedo);
 }
@@ -54,7 +54,7 @@ SpecularFit phong_fit_of(LtcTableEntry sum, vec3 albedo) {
 /// \param f0        reflectance of the specular part at normal incidence, in [0, 1].
 /// \param roughness perceptual, in [0, 1].
 /// \param fit       of the specular Frostbite BRDF at roughness, cos_o and f0.
-GlossySurface make_glossy_surface(float cos_o, vec3 albedo, vec3 f0, float roughness, SpecularFit fit) {
+GlossySurface make_glossy_surface(float cos_o, vec3 albedo, vec3 f0, float roughness, const SpecularFit fit) {
     float sin_o = sqrt(nusselt_max((1.0 - cos_o) * (1.0 + cos_o), 0.0));
     vec3 wo = vec3(sin_o, 0.0, cos_o);
     Frostbite brdf = frostbite_prepare(wo, albedo, f0, roughness);

@@ -7,17 +7,17 @@
 #include "../geometry/line_segment.glsl"
 
 /// Power of two that brings the coordinates of a segment to order one, so that their squares stay in range.
-float scale_of(LineSegment line) {
+float scale_of(const LineSegment line) {
     return reciprocal_power_of_two(nusselt_max(largest_component(line.p0), line.len));
 }
 
-LineSegment scaled(LineSegment line, float scale) {
+LineSegment scaled(const LineSegment line, float scale) {
     return LineSegment(scale * line.p0, line.s, scale * line.len);
 }
 
 /// The end of a segment, each component rounded once: where it is close to the origin, adding the length to the coordinate
 /// of the start would turn its direction.
-vec3 end_of(LineSegment line) { return exact_fma(line.len, line.s, line.p0); }
+vec3 end_of(const LineSegment line) { return exact_fma(line.len, line.s, line.p0); }
 
 /// Squared: 4 roundings. A smaller distance of a line from the origin, relative to that of its points, cannot be distinguished
 /// from rounding.
@@ -25,7 +25,7 @@ const float kNusseltSmallestSquaredDistance = 2.27373675443232059e-13;
 
 /// A segment by coordinates along its line; without length if the line meets the origin up to rounding.
 /// \param line with coordinates of order one.
-CenteredLine centered(LineSegment line) {
+CenteredLine centered(const LineSegment line) {
     // Subtract the part along the line in two steps, of which the first one rounds the difference only. What it leaves is the
     // error of the scalar product, and of the direction, which is not quite of unit length.
     float along = dot(line.p0, line.s);
@@ -89,11 +89,11 @@ CenteredLine clip_to_horizon(CenteredLine line) {
 
 /// The extent of a whole segment, in any frame.
 /// \param line with coordinates of order one.
-LineExtent whole_extent(LineSegment line) { return make_line_extent(centered(line)); }
+LineExtent whole_extent(const LineSegment line) { return make_line_extent(centered(line)); }
 
 /// The extent of the part of a segment with z > 0, in shading space.
 /// \param line with coordinates of order one.
-LineExtent clipped_extent(LineSegment line) { return make_line_extent(clip_to_horizon(centered(line))); }
+LineExtent clipped_extent(const LineSegment line) { return make_line_extent(clip_to_horizon(centered(line))); }
 
 /// The integral 2 int cos(alpha) n . w(alpha) d alpha along an extent above the horizon: the projected solid angle per
 /// radius times the distance (E of Peters 2021, linear lights, Eq. 2 and 3). It is split in the middle of the angle between
@@ -111,7 +111,7 @@ struct CosineIntegral {
     float near, far;                    ///< the integrals between the ends and the middle
 };
 
-CosineIntegral make_cosine_integral(LineExtent e, float n_t) {
+CosineIntegral make_cosine_integral(const LineExtent e, float n_t) {
     CosineIntegral self;
     // The direction to the middle is the sum of both unit directions, over twice the cosine of half the angle between them.
     float root = sqrt(2.0 * e.product * e.one_plus_cosine);
@@ -143,13 +143,13 @@ CosineIntegral make_cosine_integral(LineExtent e, float n_t) {
 }
 
 /// The integral from end to end.
-float cosine_integral(LineExtent e) {
+float cosine_integral(const LineExtent e) {
     CosineIntegral halves = make_cosine_integral(e, line_extent_n_t(e));
     return halves.near + halves.far;
 }
 
 /// Solid angle per radius of a linear light in the limit of a thin cylinder [sr/m], in any frame.
-float solid_angle(LineSegment line) {
+float solid_angle(const LineSegment line) {
     float scale = scale_of(line);
     LineExtent e = whole_extent(scaled(line, scale));
     return line_extent_visible(e) ? 2.0 * line_extent_sine_extent(e).density * e.distance * scale : 0.0;
@@ -157,7 +157,7 @@ float solid_angle(LineSegment line) {
 
 /// Projected solid angle per radius of the part of a linear light above the horizon in the limit of a thin cylinder
 /// [sr/m], in shading space.
-float projected_solid_angle(LineSegment line) {
+float projected_solid_angle(const LineSegment line) {
     float scale = scale_of(line);
     LineExtent e = clipped_extent(scaled(line, scale));
     return line_extent_visible(e) ? cosine_integral(e) / e.distance * scale : 0.0;

@@ -56,7 +56,7 @@ vec3 nearest_vertex(ConvexPolygon polygon) {
 }
 
 /// The distance of the plane that the rounded normal describes; 0 if it cannot be distinguished from rounding.
-float rounded_plane_distance(ConvexPolygon polygon, vec3 nearest) {
+float rounded_plane_distance(const ConvexPolygon polygon, vec3 nearest) {
     vec3 product = polygon.normal * nearest;
     float distance = product.x + product.y + product.z;
     float rounding = (4.0 * kNusseltEpsilon) * (abs(product.x) + abs(product.y) + abs(product.z));
@@ -86,7 +86,7 @@ void precise_fan_products(ConvexPolygon polygon, vec3 v, out float product[kNuss
 
 /// The distance of the plane through a vertex, from the vertices and edges instead of the rounded normal.
 /// \param rounded distance, for lights whose areas leave the range of numbers.
-float precise_plane_distance(ConvexPolygon polygon, vec3 vertex, float rounded) {
+float precise_plane_distance(const ConvexPolygon polygon, vec3 vertex, float rounded) {
     float product[kNusseltSlots - 2];
     precise_fan_products(polygon, vertex, product);
     float sum = 0.0;
@@ -98,7 +98,7 @@ float precise_plane_distance(ConvexPolygon polygon, vec3 vertex, float rounded) 
 
 /// Signed distance of the origin from the plane of the polygon [m], positive if the normal points away from it; 0 if
 /// it cannot be distinguished from rounding.
-float plane_distance(ConvexPolygon polygon) {
+float plane_distance(const ConvexPolygon polygon) {
     vec3 nearest = nearest_vertex(polygon);
     float distance = rounded_plane_distance(polygon, nearest);
     if (distance != 0.0 && abs(distance) < least_conclusive_sine() * largest_component(nearest))
@@ -137,7 +137,8 @@ ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], int count) {
 /// \param vertices positions [m], the last one repeated in unused slots.
 /// \param edges    to the successors [m]; the last one closes the polygon.
 /// \param normal   unit normal.
-ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], vec3 edges[NUSSELT_MAX_VERTICES], vec3 normal) {
+ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], vec3 edges[NUSSELT_MAX_VERTICES],
+                           vec3 normal) {
     const int n = NUSSELT_MAX_VERTICES;
     ConvexPolygon polygon;
     NUSSELT_UNROLL for (int j = 0; j < n; ++j) {
@@ -152,7 +153,7 @@ ConvexPolygon make_polygon(vec3 vertices[NUSSELT_MAX_VERTICES], vec3 edges[NUSSE
 }
 
 /// The polygon seen from a shading point: the point becomes the origin, the normal of the frame +z.
-ConvexPolygon to_shading_space(ConvexPolygon world, vec3 point, Frame frame) {
+ConvexPolygon to_shading_space(ConvexPolygon world, vec3 point, const Frame frame) {
     ConvexPolygon local;
     local.vertex[0] = frame_to_local(frame, world.vertex[0] - point);
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {

@@ -14,17 +14,17 @@ struct Cylinder {
 };
 
 /// The cylinder seen from a shading point: the point becomes the origin, the normal of the frame +z.
-Cylinder to_shading_space(Cylinder world, vec3 point, Frame frame) {
+Cylinder to_shading_space(const Cylinder world, vec3 point, const Frame frame) {
     return Cylinder(to_shading_space(world.axis, point, frame), world.radius);
 }
 
 /// Power of two that brings the coordinates of a cylinder to order one, so that their squares stay in range.
-float scale_of(Cylinder cylinder) {
+float scale_of(const Cylinder cylinder) {
     float extent = nusselt_max(cylinder.axis.len, cylinder.radius);
     return reciprocal_power_of_two(nusselt_max(largest_component(cylinder.axis.p0), extent));
 }
 
-Cylinder scaled(Cylinder cylinder, float scale) {
+Cylinder scaled(const Cylinder cylinder, float scale) {
     return Cylinder(scaled(cylinder.axis, scale), scale * cylinder.radius);
 }
 
@@ -56,7 +56,7 @@ struct CylinderView {
 
 /// \param cylinder with coordinates of order one.
 /// \param up       to which m leads as far as it can where the axis does not tell; may be zero.
-CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
+CylinderView make_cylinder_view(const Cylinder cylinder, vec3 up) {
     LineSegment axis = cylinder.axis;
     CylinderView v;
     v.s = axis.s;
@@ -96,7 +96,7 @@ CylinderView make_cylinder_view(Cylinder cylinder, vec3 up) {
 /// \param direction unit, in the basis m, n.
 /// \param margin    from outside: half-planes this close to one that touches the cylinder count as touching it. The sine of
 ///                  the angle between both, over that of the angle between the touching one and m.
-CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction, float margin) {
+CylinderSlice cylinder_view_slice(const CylinderView self, vec2 direction, float margin) {
     CylinderSlice c;
     float safe_radius = self.visible ? self.radius : 1.0;
     float offset = det(self.center, direction);
@@ -128,7 +128,7 @@ CylinderSlice cylinder_view_slice(CylinderView self, vec2 direction, float margi
 }
 
 /// The unit direction of the half-plane that contains a direction, in the basis m, n.
-vec2 cylinder_view_azimuth_of(CylinderView self, vec3 wi) {
+vec2 cylinder_view_azimuth_of(const CylinderView self, vec3 wi) {
     vec2 in_plane = nusselt_normalize(vec3(dot(wi, self.m), dot(wi, self.n), 0.0)).xy;
     return in_plane == vec2(0.0) ? vec2(1.0, 0.0) : in_plane;
 }
@@ -137,7 +137,7 @@ vec2 cylinder_view_azimuth_of(CylinderView self, vec3 wi) {
 /// of the surface in that half-plane if rounding lets it miss.
 /// \param tangent l / rho of the direction.
 /// \return (l, rho)
-vec2 cylinder_view_first_point(CylinderView self, CylinderSlice c, float tangent) {
+vec2 cylinder_view_first_point(const CylinderView self, const CylinderSlice c, float tangent) {
     float on_side = c.near * tangent;
     if (!(on_side < self.l0 || on_side > self.l1)) return vec2(on_side, c.near);
     float l = on_side < self.l0 ? self.l0 : self.l1;
@@ -155,7 +155,7 @@ struct LightHit {
 /// The first point where a ray from the origin meets a closed cylinder from outside, on its lateral surface or on a cap.
 /// Rays that start inside hit nothing.
 /// \param wi unit direction.
-LightHit intersect(Cylinder cylinder, vec3 wi) {
+LightHit intersect(const Cylinder cylinder, vec3 wi) {
     float scale = scale_of(cylinder);
     CylinderView view = make_cylinder_view(scaled(cylinder, scale), vec3(0.0));
     CylinderSlice slice = cylinder_view_slice(view, cylinder_view_azimuth_of(view, wi), 0.0);

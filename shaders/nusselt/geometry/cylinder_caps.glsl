@@ -9,7 +9,7 @@
 /// from its lateral surface only, does not fill with light.
 /// \param wi of any length.
 /// Next to the rim of a cap, rounding decides. False inside the slab between the planes of the caps.
-bool meets_cap(Cylinder cylinder, vec3 wi) {
+bool meets_cap(const Cylinder cylinder, vec3 wi) {
     LineSegment axis = cylinder.axis;
     float l0 = dot(axis.p0, axis.s);
     float l1 = l0 + axis.len;

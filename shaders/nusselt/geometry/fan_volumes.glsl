@@ -53,7 +53,7 @@ FanVolumes fan_volumes(ConvexPolygon polygon, float distance) {
 
 /// Computes volumes that are not conclusive once more, with products of twice the precision. They are 0 if the plane of
 /// the polygon cannot be told from one through the origin.
-FanVolumes fan_volumes_refined(ConvexPolygon polygon) {
+FanVolumes fan_volumes_refined(const ConvexPolygon polygon) {
     FanVolumes self;
     float distance = rounded_plane_distance(polygon, nearest_vertex(polygon));
     float side = copysign(1.0, distance);

@@ -20,7 +20,7 @@ LineSegment make_line(vec3 start, vec3 end) {
 }
 
 /// The segment seen from a shading point: the point becomes the origin, the normal of the frame +z.
-LineSegment to_shading_space(LineSegment world, vec3 point, Frame frame) {
+LineSegment to_shading_space(const LineSegment world, vec3 point, const Frame frame) {
     return LineSegment(frame_to_local(frame, world.p0 - point), frame_to_local(frame, world.s), world.len);
 }
 
@@ -64,7 +64,7 @@ struct LineExtent {
 };
 
 /// Component of the normal along t.
-float line_extent_n_t(LineExtent self) { return self.line.closest.z / self.distance; }
+float line_extent_n_t(const LineExtent self) { return self.line.closest.z / self.distance; }
 
 struct SineExtent {
     float difference; ///< far sine minus near sine, accurate relative to itself
@@ -77,7 +77,7 @@ struct SineRatio {
     float denominator; ///< positive
 };
 
-SineRatio line_extent_sine_ratio(LineExtent self) {
+SineRatio line_extent_sine_ratio(const LineExtent self) {
     // The tangent of half the angle between the ends times the sum of the cosines (Eq. 1) does not cancel. If the closest
     // point lies between the ends, nor do the sines.
     bool surrounds = self.line.near_l < 0.0;
@@ -87,17 +87,17 @@ SineRatio line_extent_sine_ratio(LineExtent self) {
                      surrounds ? self.line.squared : self.one_plus_cosine);
 }
 
-SineExtent line_extent_sine_extent(LineExtent self) {
+SineExtent line_extent_sine_extent(const LineExtent self) {
     SineRatio ratio = line_extent_sine_ratio(self);
     float density = ratio.numerator / ratio.denominator;
     return SineExtent(self.line.near_l < 0.0 ? ratio.numerator : self.line.squared * density, density);
 }
 
 /// Whether there is light and the angle between its ends exceeds a quarter of a turn.
-bool line_extent_is_obtuse(LineExtent self) { return self.one_plus_cosine < self.product && self.line.len > 0.0; }
+bool line_extent_is_obtuse(const LineExtent self) { return self.one_plus_cosine < self.product && self.line.len > 0.0; }
 
 /// one_plus_cosine of an obtuse angle, accurate relative to itself: the closest point lies between the ends.
-float line_extent_precise_one_plus_cosine(LineExtent self) {
+float line_extent_precise_one_plus_cosine(const LineExtent self) {
     float squares =
         nusselt_fma(self.line.near_l, self.line.near_l, nusselt_fma(self.line.far_l, self.line.far_l, self.line.squared));
     float sum = nusselt_fma(-self.line.near_l, self.line.far_l, self.product);
@@ -105,10 +105,10 @@ float line_extent_precise_one_plus_cosine(LineExtent self) {
 }
 
 /// False if the segment has no length or its line passes through the origin.
-bool line_extent_visible(LineExtent self) { return self.line.len * self.distance > 0.0; }
+bool line_extent_visible(const LineExtent self) { return self.line.len * self.distance > 0.0; }
 
 /// The extent of a segment.
-LineExtent make_line_extent(CenteredLine line) {
+LineExtent make_line_extent(const CenteredLine line) {
     LineExtent e;
     e.line = line;
     e.distance = sqrt(line.squared);
@@ -144,7 +144,7 @@ struct LineMap {
     float step_scale;
 };
 
-LineMap make_line_map(LineExtent e) {
+LineMap make_line_map(const LineExtent e) {
     SineExtent sines = line_extent_sine_extent(e);
     return LineMap(e.line.near, e.line.inward, e.line.closest, e.line.len, e.near_inverse, e.near_inverse_squared,
                    e.far_inverse_squared, e.line.near_l * e.near_inverse, sines.difference,
@@ -152,17 +152,17 @@ LineMap make_line_map(LineExtent e) {
 }
 
 /// \param share in [0, 1], see LinePoint.
-LinePoint line_map_point_at(LineMap self, float share) {
+LinePoint line_map_point_at(const LineMap self, float share) {
     // With sines (1 - x) s0 + x s1, the squared cosines are (1 - x) c0^2 + x c1^2 + x (1 - x) (s1 - s0)^2: a sum of positive
     // terms. Here it is divided by the squared distance of the line.
     float near_part = nusselt_fma(share, self.squared_density, self.near_inverse_squared);
     return LinePoint(share, sqrt(nusselt_fma(share, self.far_inverse_squared, (1.0 - share) * near_part)));
 }
 
-float line_map_sine_at(LineMap self, float share) { return nusselt_fma(share, self.sine_extent, self.near_sine); }
+float line_map_sine_at(const LineMap self, float share) { return nusselt_fma(share, self.sine_extent, self.near_sine); }
 
 /// The point itself, on the segment.
-vec3 line_map_position(LineMap self, LinePoint point) {
+vec3 line_map_position(const LineMap self, const LinePoint point) {
     // A point much closer to the origin than both ends would suffer from their rounding. It lies far from them.
     bool beside = point.inverse_distance > 2.0 * self.near_inverse;
     // Else the nearer end is the more accurate place to start from. With the tangent T of half the angle between that end
@@ -176,10 +176,10 @@ vec3 line_map_position(LineMap self, LinePoint point) {
 
 /// Unit direction to a point.
 /// \param p its position.
-vec3 line_map_direction(LineMap self, LinePoint point, vec3 p) { return point.inverse_distance * p; }
+vec3 line_map_direction(const LineMap self, const LinePoint point, vec3 p) { return point.inverse_distance * p; }
 
 /// The share of the point in a unit direction that hits the segment up to rounding, in [0, 1].
-float line_map_share_in(LineMap self, vec3 wi) {
+float line_map_share_in(const LineMap self, vec3 wi) {
     float distance = sqrt(dot(self.closest, self.closest));
     float along = dot(wi, self.inward);
     float across = nusselt_max(dot(wi, self.closest) / (distance > 0.0 ? distance : 1.0), 0.0);

@@ -15,7 +15,7 @@ struct PolygonHull {
     vec3 low, high;           ///< axis-aligned box
 };
 
-LightPlane polygon_hull_plane(PolygonHull self) { return LightPlane(self.normal, self.distance, self.farthest); }
+LightPlane polygon_hull_plane(const PolygonHull self) { return LightPlane(self.normal, self.distance, self.farthest); }
 
 /// \param distance of the plane of the polygon from the origin, see plane_distance().
 PolygonHull hull_of(ConvexPolygon polygon, float distance) {
@@ -33,13 +33,13 @@ PolygonHull hull_of(ConvexPolygon polygon, float distance) {
 
 /// The point in a unit direction that hits the polygon. In a direction that is almost in the plane, rounding may move it
 /// anywhere in the box.
-vec3 polygon_hull_point_along(PolygonHull self, vec3 wi) {
+vec3 polygon_hull_point_along(const PolygonHull self, vec3 wi) {
     return nusselt_min(nusselt_max(light_plane_distance_along(polygon_hull_plane(self), wi) * wi, self.low), self.high);
 }
 
 /// Moves a point of the polygon, which rounding may have put before or behind the plane, along the normal to the plane,
 /// then into the box.
-vec3 polygon_hull_moved_to_plane(PolygonHull self, vec3 p) {
+vec3 polygon_hull_moved_to_plane(const PolygonHull self, vec3 p) {
     float off_plane = self.distance - dot(self.normal, p);
     return nusselt_min(nusselt_max(p + off_plane * self.normal, self.low), self.high);
 }

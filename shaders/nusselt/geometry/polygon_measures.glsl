@@ -8,7 +8,7 @@
 #include "../geometry/clip_polygon.glsl"
 
 /// Area [m^2]; 0 for degenerate polygons.
-float area(ConvexPolygon polygon) { return 0.5 * nusselt_length(doubled_area_normal(polygon)); }
+float area(const ConvexPolygon polygon) { return 0.5 * nusselt_length(doubled_area_normal(polygon)); }
 
 /// The power of two by which a polygon must be scaled to bring its farthest vertex to a distance of order one.
 /// Directions, solid angles and projected solid angles do not change; products of coordinates then stay in range.
@@ -31,7 +31,7 @@ ConvexPolygon with_unit_extent(ConvexPolygon polygon) {
 
 /// Solid angle [sr] seen from the origin by a polygon, clipped or not, in any frame; 0 if the origin lies in its
 /// plane. Triangle fan with the formula of van Oosterom and Strackee (Peters 2021, polygonal lights, Eq. 13).
-float solid_angle(ConvexPolygon world) {
+float solid_angle(const ConvexPolygon world) {
     ConvexPolygon polygon = with_unit_extent(world);
     float distance = abs(plane_distance(polygon));
     vec3 offset = polygon.edge[0];
@@ -56,7 +56,7 @@ float solid_angle(ConvexPolygon world) {
 }
 
 /// Projected solid angle [sr] of the part of a light above the horizon, in shading space: Lambert's formula.
-float projected_solid_angle(ConvexPolygon polygon) {
+float projected_solid_angle(const ConvexPolygon polygon) {
     ConvexPolygon clipped = with_unit_extent(clip_to_horizon(with_unit_extent(polygon)));
     float doubled = 0.0;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {

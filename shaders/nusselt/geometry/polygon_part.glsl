@@ -16,14 +16,14 @@ struct PolygonPart {
 };
 
 /// All of a polygon, in any frame.
-PolygonPart whole_part(ConvexPolygon light) {
+PolygonPart whole_part(const ConvexPolygon light) {
     ConvexPolygon unit = with_unit_extent(light);
     return PolygonPart(unit, reciprocal_power_of_two(unit_extent_scale(light)), plane_distance(unit));
 }
 
 /// The part of a polygon above the horizon.
 /// \param light in shading space, of at most NUSSELT_MAX_VERTICES - 1 vertices if it is clipped once more.
-PolygonPart part_above_horizon(ConvexPolygon light) {
+PolygonPart part_above_horizon(const ConvexPolygon light) {
     PolygonPart whole = whole_part(light);
     // Once more to an extent of order one, since little may be left of the light.
     ConvexPolygon clipped = clip_to_horizon(whole.polygon);

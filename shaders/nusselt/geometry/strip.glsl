@@ -9,7 +9,7 @@
 /// closest point of its infinite middle line, in [0, 1]; 0 if the line meets the origin.
 /// \param light  the middle line [m].
 /// \param normal unit, perpendicular to the line; both sides shine.
-float strip_facing(LineSegment light, vec3 normal) {
+float strip_facing(const LineSegment light, vec3 normal) {
     vec3 to_line = nusselt_cross(light.s, nusselt_normalize(nusselt_cross(light.p0, light.s)));
     return abs(dot(to_line, normal));
 }

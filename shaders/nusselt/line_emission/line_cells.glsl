@@ -21,7 +21,7 @@ struct LineCells {
 };
 
 /// What is above the horizon of a part of a line.
-vec2 lit_part_above(LineSegment line, vec2 part) {
+vec2 lit_part_above(const LineSegment line, vec2 part) {
     float start = line.p0.z;
     float end = end_of(line).z;
     if (start <= 0.0 && end <= 0.0) return vec2(0.0);
@@ -39,7 +39,7 @@ struct LineSums {
 };
 
 /// Adds up cells until their weights exceed a target, or up to a cell.
-LineSums line_cells_sums(LineCells self, float target, int last_cell) {
+LineSums line_cells_sums(const LineCells self, float target, int last_cell) {
     LineSums sums = LineSums(0, 0.0, 0.0, vec3(0.0));
     float high = line_profile_border(self.profile, 0);
     vec3 radiance_high = line_profile_radiance(self.profile, 0);
@@ -73,7 +73,7 @@ LineSums line_cells_sums(LineCells self, float target, int last_cell) {
 ///              space.
 /// \param ratio measures of parts of the line over projected solid angles of their images.
 /// \param scale by which the line is larger than the light.
-LineCells line_cells_prepare(LineSegment line, LineSegment image, float ratio, float scale, uint profile) {
+LineCells line_cells_prepare(const LineSegment line, const LineSegment image, float ratio, float scale, uint profile) {
     LineCells self;
     self.profile = profile;
     self.line = line;
@@ -89,12 +89,12 @@ LineCells line_cells_prepare(LineSegment line, LineSegment image, float ratio, f
     return self;
 }
 
-vec3 line_cells_point_at(LineCells self, float at) {
+vec3 line_cells_point_at(const LineCells self, float at) {
     return exact_fma(at * self.line.len, self.line.s, self.line.p0);
 }
 
 /// Where a direction meets the line, as a share of its length.
-float line_cells_position_of(LineCells self, vec3 wi) {
+float line_cells_position_of(const LineCells self, vec3 wi) {
     CenteredLine line = centered(self.line);
     float ahead = nusselt_max(dot(wi, line.closest), kNusseltSmallestNormal);
     float l = nusselt_min(nusselt_max(line.squared * (dot(wi, line.inward) / ahead), line.near_l), line.far_l);
@@ -109,7 +109,7 @@ struct LineCell {
     float first, last; ///< radiance there
 };
 
-LineCell line_cells_cell(LineCells self, int k) {
+LineCell line_cells_cell(const LineCells self, int k) {
     float low = line_profile_border(self.profile, k);
     float high = line_profile_border(self.profile, k + 1);
     float begin = nusselt_min(nusselt_max(low, self.lit.x), high);
@@ -122,7 +122,7 @@ LineCell line_cells_cell(LineCells self, int k) {
 }
 
 /// The number of the cell where samples at a point come from.
-int line_cells_cell_at(LineCells self, float at) {
+int line_cells_cell_at(const LineCells self, float at) {
     return line_profile_cell_at(self.profile, nusselt_min(nusselt_max(at, self.lit.x), self.lit.y));
 }
 
@@ -133,7 +133,7 @@ struct LineSpot {
 };
 
 /// The spot for a random number. \param u in [0, 1)
-LineSpot line_cells_spot_of(LineCells self, float u) {
+LineSpot line_cells_spot_of(const LineCells self, float u) {
     float target = below_one(u) * self.total;
     LineSums sums = line_cells_sums(self, target, line_profile_cells(self.profile) - 1);
     LineCell cell = line_cells_cell(self, sums.cell);
@@ -147,7 +147,7 @@ LineSpot line_cells_spot_of(LineCells self, float u) {
 /// The density at a point of a cell: the measure of the cell cancels.
 /// \param x         random number of the technique for the cell
 /// \param integrand of the measure: density of that technique times its measure
-float line_cells_density(LineCells self, LineCell cell, float x, float integrand) {
+float line_cells_density(const LineCells self, const LineCell cell, float x, float integrand) {
     if (!(cell.first + cell.last > 0.0)) return 0.0;
     float density = ((1.0 - x) * cell.first + x * cell.last) * integrand / self.total;
     return is_finite(density) ? density : 0.0;
@@ -155,7 +155,7 @@ float line_cells_density(LineCells self, LineCell cell, float x, float integrand
 
 /// \param s       a sample of the technique for the cell, in units of the scaled line
 /// \param measure of that technique
-TexturedSample line_cells_sample(LineCells self, LineSpot spot, LightSample s, float measure) {
+TexturedSample line_cells_sample(const LineCells self, const LineSpot spot, const LightSample s, float measure) {
     float at = nusselt_min(nusselt_max(line_cells_position_of(self, s.wi), spot.cell.begin), spot.cell.end);
     return TexturedSample(s.wi, line_cells_density(self, spot.cell, spot.x, measure * s.pdf),
                           self.inverse_scale * s.p, vec2(at, 0.0));
@@ -164,7 +164,7 @@ TexturedSample line_cells_sample(LineCells self, LineSpot spot, LightSample s, f
 /// The random number of a point in a cell.
 /// \param sums up to the cell
 /// \param x    random number of the technique for the cell
-float line_cells_united(LineCells self, LineSums sums, LineCell cell, float x) {
+float line_cells_united(const LineCells self, const LineSums sums, const LineCell cell, float x) {
     float both = cell.first + cell.last;
     float below = x * (2.0 * cell.first + x * (cell.last - cell.first));
     float rest = both > 0.0 ? nusselt_min(below / both, 1.0) : 0.0;

@@ -46,7 +46,7 @@ vec3 line_profile_radiance(uint profile, int k) {
 float line_profile_value(uint profile, int k) { return mean_of_channels(line_profile_radiance(profile, k)); }
 
 /// The share of a line before the point next to p, in [0, 1].
-float place_along(LineSegment line, vec3 p) {
+float place_along(const LineSegment line, vec3 p) {
     float at = dot(p - line.p0, line.s) / (line.len > 0.0 ? line.len : 1.0);
     // Comparisons with NaN are false.
     return at > 0.0 ? nusselt_min(at, 1.0) : 0.0;

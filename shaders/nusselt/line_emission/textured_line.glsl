@@ -18,27 +18,27 @@ struct TexturedLine {
 
 /// \param light   in shading space [m].
 /// \param profile number of its first word (line_profile.glsl).
-TexturedLine textured_line_prepare(LineSegment light, uint profile) {
+TexturedLine textured_line_prepare(const LineSegment light, uint profile) {
     float scale = scale_of(light);
     LineSegment line = scaled(light, scale);
     return TexturedLine(line_cells_prepare(line, line, 1.0, scale, profile));
 }
 
 /// The technique in a cell.
-LineProjectedSolidAngle textured_line_technique(TexturedLine self, LineCell cell) {
+LineProjectedSolidAngle textured_line_technique(const TexturedLine self, const LineCell cell) {
     return line_projected_solid_angle_prepare(cell.part);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times projected solid angle per radius [W/m^3].
-float textured_line_measure(TexturedLine self) { return self.cells.total; }
+float textured_line_measure(const TexturedLine self) { return self.cells.total; }
 
 /// The light that is reflected without shadows per radius and albedo, per channel [W/(sr m^3)]: the coefficient of heuristics
 /// for multiple importance sampling. Exact where the light is constant.
-vec3 textured_line_unshadowed(TexturedLine self) { return (1.0 / kNusseltPi) * self.cells.expected; }
+vec3 textured_line_unshadowed(const TexturedLine self) { return (1.0 / kNusseltPi) * self.cells.expected; }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end. The sample is at a share of the length,
 ///          `at.x`.
-TexturedSample textured_line_sample(TexturedLine self, float u) {
+TexturedSample textured_line_sample(const TexturedLine self, float u) {
     if (!(self.cells.total > 0.0)) return no_textured_sample();
     LineSpot spot = line_cells_spot_of(self.cells, u);
     LineProjectedSolidAngle technique = textured_line_technique(self, spot.cell);
@@ -46,7 +46,7 @@ TexturedSample textured_line_sample(TexturedLine self, float u) {
 }
 
 /// The density of a direction. \param at share of the length before the point there.
-float textured_line_density(TexturedLine self, vec3 wi, float at) {
+float textured_line_density(const TexturedLine self, vec3 wi, float at) {
     LineCell cell = line_cells_cell(self.cells, line_cells_cell_at(self.cells, at));
     if (wi.z < 0.0) return 0.0;
     LineProjectedSolidAngle technique = textured_line_technique(self, cell);
@@ -55,19 +55,19 @@ float textured_line_density(TexturedLine self, vec3 wi, float at) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_line_pdf(TexturedLine self, vec3 wi) {
+float textured_line_pdf(const TexturedLine self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return 0.0;
     return textured_line_density(self, wi, line_cells_position_of(self.cells, wi));
 }
 
 /// The density of the direction to a point of the light [m/sr]. \param at share of the length before it, in [0, 1].
-float textured_line_pdf_at(TexturedLine self, float at) {
+float textured_line_pdf_at(const TexturedLine self, float at) {
     if (!(self.cells.total > 0.0)) return 0.0;
     return textured_line_density(self, nusselt_normalize(line_cells_point_at(self.cells, at)), at);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float textured_line_invert(TexturedLine self, vec3 wi) {
+float textured_line_invert(const TexturedLine self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return 0.0;
     int k = line_cells_cell_at(self.cells, line_cells_position_of(self.cells, wi));
     LineCell cell = line_cells_cell(self.cells, k);

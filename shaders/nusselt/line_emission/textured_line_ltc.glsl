@@ -19,7 +19,7 @@ struct TexturedLineLtc {
 
 /// Integrals of the lobe over parts of a line, over projected solid angles of their images.
 /// \param line with coordinates of order one.
-float textured_line_ltc_ratio(LineSegment line, Ltc ltc) {
+float textured_line_ltc_ratio(const LineSegment line, const Ltc ltc) {
     float thicker = kNusseltPi * radius_ratio(nusselt_cross(line.p0, line.s), ltc);
     float ratio = 1.0 / (thicker > 0.0 ? thicker : 1.0);
     return thicker > 0.0 && is_finite(ratio) && centered(line).len > 0.0 ? ratio : 0.0;
@@ -27,7 +27,7 @@ float textured_line_ltc_ratio(LineSegment line, Ltc ltc) {
 
 /// \param light   in shading space [m].
 /// \param profile number of its first word (line_profile.glsl).
-TexturedLineLtc textured_line_ltc_prepare(LineSegment light, uint profile, Ltc ltc) {
+TexturedLineLtc textured_line_ltc_prepare(const LineSegment light, uint profile, const Ltc ltc) {
     float scale = scale_of(light);
     LineSegment line = scaled(light, scale);
     return TexturedLineLtc(line_cells_prepare(line, to_cosine_space(line, ltc), textured_line_ltc_ratio(line, ltc),
@@ -36,19 +36,19 @@ TexturedLineLtc textured_line_ltc_prepare(LineSegment light, uint profile, Ltc l
 }
 
 /// The technique in a cell.
-LineLtc textured_line_ltc_technique(TexturedLineLtc self, LineCell cell) {
+LineLtc textured_line_ltc_technique(const TexturedLineLtc self, const LineCell cell) {
     return line_clipped_ltc_prepare(cell.part, self.ltc);
 }
 
 /// The sum over cells of mean radiance, averaged over channels, times the integral of the lobe per radius [W/(sr m^3)].
-float textured_line_ltc_measure(TexturedLineLtc self) { return self.cells.total; }
+float textured_line_ltc_measure(const TexturedLineLtc self) { return self.cells.total; }
 
 /// See textured_line_unshadowed().
-vec3 textured_line_ltc_unshadowed(TexturedLineLtc self) { return self.cells.expected; }
+vec3 textured_line_ltc_unshadowed(const TexturedLineLtc self) { return self.cells.expected; }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end. The sample is at a share of the length,
 ///          `at.x`.
-TexturedSample textured_line_ltc_sample(TexturedLineLtc self, float u) {
+TexturedSample textured_line_ltc_sample(const TexturedLineLtc self, float u) {
     if (!(self.cells.total > 0.0)) return no_textured_sample();
     LineSpot spot = line_cells_spot_of(self.cells, u);
     LineLtc technique = textured_line_ltc_technique(self, spot.cell);
@@ -56,7 +56,7 @@ TexturedSample textured_line_ltc_sample(TexturedLineLtc self, float u) {
 }
 
 /// The density of a direction. \param at share of the length before the point there.
-float textured_line_ltc_density(TexturedLineLtc self, vec3 wi, float at) {
+float textured_line_ltc_density(const TexturedLineLtc self, vec3 wi, float at) {
     LineCell cell = line_cells_cell(self.cells, line_cells_cell_at(self.cells, at));
     if (wi.z < 0.0) return 0.0;
     LineLtc technique = textured_line_ltc_technique(self, cell);
@@ -65,19 +65,19 @@ float textured_line_ltc_density(TexturedLineLtc self, vec3 wi, float at) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_line_ltc_pdf(TexturedLineLtc self, vec3 wi) {
+float textured_line_ltc_pdf(const TexturedLineLtc self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return 0.0;
     return textured_line_ltc_density(self, wi, line_cells_position_of(self.cells, wi));
 }
 
 /// The density of the direction to a point of the light [m/sr]. \param at share of the length before it, in [0, 1].
-float textured_line_ltc_pdf_at(TexturedLineLtc self, float at) {
+float textured_line_ltc_pdf_at(const TexturedLineLtc self, float at) {
     if (!(self.cells.total > 0.0)) return 0.0;
     return textured_line_ltc_density(self, nusselt_normalize(line_cells_point_at(self.cells, at)), at);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float textured_line_ltc_invert(TexturedLineLtc self, vec3 wi) {
+float textured_line_ltc_invert(const TexturedLineLtc self, vec3 wi) {
     if (!(self.cells.total > 0.0)) return 0.0;
     int k = line_cells_cell_at(self.cells, line_cells_position_of(self.cells, wi));
     LineCell cell = line_cells_cell(self.cells, k);

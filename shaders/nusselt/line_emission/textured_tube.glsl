@@ -16,13 +16,13 @@ struct TexturedTube {
     TubeWarp along; ///< density of the second random number
 };
 
-CylinderProjectedSolidAngle textured_tube_technique(TexturedTube self) {
+CylinderProjectedSolidAngle textured_tube_technique(const TexturedTube self) {
     return CylinderProjectedSolidAngle(self.fan, self.inverse_scale);
 }
 
 /// \param light   in shading space [m].
 /// \param profile number of its first word (line_profile.glsl).
-TexturedTube textured_tube_prepare(Cylinder light, uint profile) {
+TexturedTube textured_tube_prepare(const Cylinder light, uint profile) {
     CylinderProjectedSolidAngle technique = cylinder_projected_solid_angle_prepare(light);
     return TexturedTube(technique.fan, technique.inverse_scale,
                         tube_warp_prepare(technique.fan, technique.inverse_scale, light.axis, profile));
@@ -30,12 +30,12 @@ TexturedTube textured_tube_prepare(Cylinder light, uint profile) {
 
 /// The measure of the technique times the radiance that it leads to, over the mean of the profile: good enough for weights of
 /// multiple importance sampling.
-float textured_tube_measure(TexturedTube self) {
+float textured_tube_measure(const TexturedTube self) {
     return cylinder_projected_solid_angle_measure(textured_tube_technique(self)) * tube_warp_integral(self.along);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it.
-LightSample textured_tube_sample(TexturedTube self, vec2 u) {
+LightSample textured_tube_sample(const TexturedTube self, vec2 u) {
     float y = below_one(tube_warp_invert(self.along, u.y));
     LightSample s = cylinder_projected_solid_angle_sample(textured_tube_technique(self), vec2(u.x, y));
     s.pdf = tube_warp_density_of_sample(self.along, s.pdf, y);
@@ -43,13 +43,13 @@ LightSample textured_tube_sample(TexturedTube self, vec2 u) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_tube_pdf(TexturedTube self, vec3 wi) {
+float textured_tube_pdf(const TexturedTube self, vec3 wi) {
     return tube_warp_density_of_sample(self.along, cylinder_projected_solid_angle_pdf(textured_tube_technique(self), wi),
                                        cylinder_projected_solid_angle_invert(textured_tube_technique(self), wi).y);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 textured_tube_invert(TexturedTube self, vec3 wi) {
+vec2 textured_tube_invert(const TexturedTube self, vec3 wi) {
     vec2 u = cylinder_projected_solid_angle_invert(textured_tube_technique(self), wi);
     float whole = tube_warp_integral(self.along);
     return vec2(u.x, whole > 0.0 ? below_one(tube_warp_below(self.along, u.y) / whole) : 0.0);

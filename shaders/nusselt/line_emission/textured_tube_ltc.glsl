@@ -17,13 +17,13 @@ struct TexturedTubeLtc {
     TubeWarp along; ///< density of the second random number
 };
 
-CylinderLtc textured_tube_ltc_technique(TexturedTubeLtc self) {
+CylinderLtc textured_tube_ltc_technique(const TexturedTubeLtc self) {
     return CylinderLtc(self.ltc, self.fan, self.inverse_scale);
 }
 
 /// \param light   in shading space [m].
 /// \param profile number of its first word (line_profile.glsl).
-TexturedTubeLtc textured_tube_ltc_prepare(Cylinder light, uint profile, Ltc ltc) {
+TexturedTubeLtc textured_tube_ltc_prepare(const Cylinder light, uint profile, const Ltc ltc) {
     CylinderLtc technique = cylinder_ltc_prepare(light, ltc);
     return TexturedTubeLtc(technique.ltc, technique.fan, technique.inverse_scale,
                            tube_warp_prepare(technique.fan, technique.inverse_scale, light.axis, profile));
@@ -31,12 +31,12 @@ TexturedTubeLtc textured_tube_ltc_prepare(Cylinder light, uint profile, Ltc ltc)
 
 /// The measure of the technique times the radiance that it leads to, over the mean of the profile: good enough for weights of
 /// multiple importance sampling.
-float textured_tube_ltc_measure(TexturedTubeLtc self) {
+float textured_tube_ltc_measure(const TexturedTubeLtc self) {
     return cylinder_ltc_measure(textured_tube_ltc_technique(self)) * tube_warp_integral(self.along);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it.
-LightSample textured_tube_ltc_sample(TexturedTubeLtc self, vec2 u) {
+LightSample textured_tube_ltc_sample(const TexturedTubeLtc self, vec2 u) {
     float y = below_one(tube_warp_invert(self.along, u.y));
     LightSample s = cylinder_ltc_sample(textured_tube_ltc_technique(self), vec2(u.x, y));
     s.pdf = tube_warp_density_of_sample(self.along, s.pdf, y);
@@ -44,13 +44,13 @@ LightSample textured_tube_ltc_sample(TexturedTubeLtc self, vec2 u) {
 }
 
 /// \param wi a unit direction towards the light.
-float textured_tube_ltc_pdf(TexturedTubeLtc self, vec3 wi) {
+float textured_tube_ltc_pdf(const TexturedTubeLtc self, vec3 wi) {
     return tube_warp_density_of_sample(self.along, cylinder_ltc_pdf(textured_tube_ltc_technique(self), wi),
                                        cylinder_ltc_invert(textured_tube_ltc_technique(self), wi).y);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 textured_tube_ltc_invert(TexturedTubeLtc self, vec3 wi) {
+vec2 textured_tube_ltc_invert(const TexturedTubeLtc self, vec3 wi) {
     vec2 u = cylinder_ltc_invert(textured_tube_ltc_technique(self), wi);
     float whole = tube_warp_integral(self.along);
     return vec2(u.x, whole > 0.0 ? below_one(tube_warp_below(self.along, u.y) / whole) : 0.0);

@@ -41,7 +41,7 @@ float tube_relative_radiance(uint profile, float mean, float from, float to) {
 /// \param fan           of the technique, in coordinates of order one.
 /// \param inverse_scale of these coordinates.
 /// \param axis          in shading space [m].
-TubeWarp tube_warp_prepare(CylinderFan fan, float inverse_scale, LineSegment axis, uint profile) {
+TubeWarp tube_warp_prepare(const CylinderFan fan, float inverse_scale, const LineSegment axis, uint profile) {
     TubeWarp self;
     float mean = line_profile_below(profile, 1.0);
     CylinderHalfPlane half_plane = cylinder_fan_half_plane(fan, 0.5);
@@ -99,7 +99,7 @@ float tube_warp_density(TubeWarp self, float x) {
 }
 
 /// The density of a sample whose second random number x has this density. \param pdf of the technique
-float tube_warp_density_of_sample(TubeWarp self, float pdf, float x) {
+float tube_warp_density_of_sample(const TubeWarp self, float pdf, float x) {
     float density = pdf * tube_warp_density(self, x);
     return is_finite(density) ? density : 0.0;
 }

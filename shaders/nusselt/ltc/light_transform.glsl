@@ -13,7 +13,7 @@
 #include "../ltc/ltc.glsl"
 
 /// \param light in shading space, with coordinates of order one (with_unit_extent()).
-ConvexPolygon to_cosine_space(ConvexPolygon light, Ltc ltc) {
+ConvexPolygon to_cosine_space(ConvexPolygon light, const Ltc ltc) {
     ConvexPolygon image;
     NUSSELT_UNROLL for (int j = 0; j < kNusseltSlots; ++j) {
         image.vertex[j] = ltc_to_cosine(ltc, light.vertex[j]);
@@ -24,7 +24,7 @@ ConvexPolygon to_cosine_space(ConvexPolygon light, Ltc ltc) {
 }
 
 /// \param light in shading space, with coordinates of order one (scaled()).
-LineSegment to_cosine_space(LineSegment light, Ltc ltc) {
+LineSegment to_cosine_space(const LineSegment light, const Ltc ltc) {
     vec3 s = ltc_to_cosine(ltc, light.s);
     float stretch = nusselt_length(s);
     float inverse = 1.0 / (stretch > 0.0 ? stretch : 1.0);
@@ -35,13 +35,13 @@ LineSegment to_cosine_space(LineSegment light, Ltc ltc) {
 /// reciprocal of the width factor of Heitz and Hill 2017, Linear-Light Shading with Linearly Transformed Cosines).
 /// \param moment cross product of a point and the direction of the line in shading space, of any length.
 /// \returns 0 for the zero vector.
-float radius_ratio(vec3 moment, Ltc ltc) {
+float radius_ratio(vec3 moment, const Ltc ltc) {
     return nusselt_length(ltc_normal_to_cosine(ltc, nusselt_normalize(moment))) / ltc.minor;
 }
 
 /// The part of a line above the surface.
 /// \param light in shading space, with coordinates of order one (scaled()).
-LineSegment part_above_horizon(LineSegment light) {
+LineSegment part_above_horizon(const LineSegment light) {
     CenteredLine part = clip_to_horizon(centered(light));
     vec3 start = part.sign_of_s > 0.0 ? part.near : exact_fma(part.len, part.inward, part.near);
     start.z = nusselt_max(start.z, 0.0);

@@ -13,24 +13,24 @@
 
 /// Integral of the Lambertian lobe over the part of a linear light above the surface, per radius [1/m].
 /// \param light in shading space [m].
-float diffuse_integral(LineSegment light) { return (1.0 / kNusseltPi) * projected_solid_angle(light); }
+float diffuse_integral(const LineSegment light) { return (1.0 / kNusseltPi) * projected_solid_angle(light); }
 
 /// \param part  the part of a light that counts, with coordinates of order one.
 /// \param scale by which it is larger than the light.
-float lobe_integral_of_part(LineSegment part, float scale, Ltc ltc) {
+float lobe_integral_of_part(const LineSegment part, float scale, const Ltc ltc) {
     float ratio = radius_ratio(nusselt_cross(part.p0, part.s), ltc);
     return ratio > 0.0 ? diffuse_integral(to_cosine_space(part, ltc)) / ratio * scale : 0.0;
 }
 
 /// Integral of a lobe over a linear light, per radius [1/m]; 0 without length or where its line meets the origin.
 /// \param light in shading space with wo in the xz half-plane [m].
-float lobe_integral(LineSegment light, Ltc ltc) {
+float lobe_integral(const LineSegment light, const Ltc ltc) {
     float scale = scale_of(light);
     return lobe_integral_of_part(scaled(light, scale), scale, ltc);
 }
 
 /// The same over the part of the light above the surface.
-float clipped_lobe_integral(LineSegment light, Ltc ltc) {
+float clipped_lobe_integral(const LineSegment light, const Ltc ltc) {
     float scale = scale_of(light);
     return lobe_integral_of_part(part_above_horizon(scaled(light, scale)), scale, ltc);
 }
@@ -58,7 +58,7 @@ float small_disk_integral(vec3 p, vec3 inward, float radius, float density) {
 }
 
 /// \param densities of a lobe in the directions of both ends.
-float caps_integral_of_densities(LineSegment light, float radius, vec2 densities) {
+float caps_integral_of_densities(const LineSegment light, float radius, vec2 densities) {
     return kNusseltPi * (small_disk_integral(light.p0, light.s, radius, densities.x) +
                          small_disk_integral(end_of(light), -light.s, radius, densities.y));
 }
@@ -67,14 +67,14 @@ float caps_integral_of_densities(LineSegment light, float radius, vec2 densities
 /// spots show where a lobe is narrower than the tube.
 /// \param light  the axis, in shading space [m].
 /// \param radius [m]
-float caps_integral(LineSegment light, float radius, Ltc ltc) {
+float caps_integral(const LineSegment light, float radius, const Ltc ltc) {
     vec3 w0 = nusselt_normalize(light.p0);
     vec3 w1 = nusselt_normalize(end_of(light));
     return caps_integral_of_densities(light, radius, vec2(ltc_density(ltc, w0), ltc_density(ltc, w1)));
 }
 
 /// The same for ends above the surface only.
-float clipped_caps_integral(LineSegment light, float radius, Ltc ltc) {
+float clipped_caps_integral(const LineSegment light, float radius, const Ltc ltc) {
     vec3 w0 = nusselt_normalize(light.p0);
     vec3 w1 = nusselt_normalize(end_of(light));
     vec2 densities = vec2(w0.z > 0.0 ? ltc_density(ltc, w0) : 0.0, w1.z > 0.0 ? ltc_density(ltc, w1) : 0.0);
@@ -82,7 +82,7 @@ float clipped_caps_integral(LineSegment light, float radius, Ltc ltc) {
 }
 
 /// The same for the Lambertian lobe.
-float diffuse_caps_integral(LineSegment light, float radius) {
+float diffuse_caps_integral(const LineSegment light, float radius) {
     vec2 heights = vec2(nusselt_normalize(light.p0).z, nusselt_normalize(end_of(light)).z);
     return caps_integral_of_densities(light, radius, (1.0 / kNusseltPi) * max(heights, vec2(0.0)));
 }
@@ -93,7 +93,7 @@ float diffuse_caps_integral(LineSegment light, float radius) {
 /// \param width         of the strip [m].
 /// \param line_integral of a lobe over the line, per radius [1/m].
 /// \returns integral of the lobe over the strip, in [0, 1]. The error is of the order of width over distance.
-float strip_integral(LineSegment light, vec3 normal, float width, float line_integral) {
+float strip_integral(const LineSegment light, vec3 normal, float width, float line_integral) {
     return tube_integral(line_integral * strip_facing(light, normal), 0.5 * width);
 }
 

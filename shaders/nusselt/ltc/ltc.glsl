@@ -34,7 +34,7 @@ struct Ltc {
 };
 
 /// \param c with a positive determinant and m11 > 0, as those of a table; the albedo is not used.
-Ltc ltc_prepare(LtcCoefficients c) {
+Ltc ltc_prepare(const LtcCoefficients c) {
     float extent = nusselt_max(nusselt_max(abs(c.m00), abs(c.m02)), nusselt_max(abs(c.m20), abs(c.m22)));
     float scale = reciprocal_power_of_two(nusselt_max(extent, abs(c.m11)));
     Ltc self;
@@ -50,20 +50,20 @@ Ltc ltc_prepare(LtcCoefficients c) {
 
 /// A vector of shading space in cosine space, scaled by a number of the order of one that depends on the lobe only.
 /// Narrow lobes make both terms of a component large and their sum small: it is accurate relative to itself.
-vec3 ltc_to_cosine(Ltc self, vec3 v) {
+vec3 ltc_to_cosine(const Ltc self, vec3 v) {
     return vec3(difference_of_products(self.m00, v.x, -self.m02, v.z), self.m11 * v.y,
                 difference_of_products(self.m20, v.x, -self.m22, v.z));
 }
 
 /// A vector of cosine space in shading space: that of ltc_to_cosine(self, v) is self.minor * v.
-vec3 ltc_to_shading(Ltc self, vec3 v) {
+vec3 ltc_to_shading(const Ltc self, vec3 v) {
     return vec3(difference_of_products(self.m22, v.x, self.m02, v.z), self.lateral * v.y,
                 difference_of_products(self.m00, v.z, self.m20, v.x));
 }
 
 /// The normal of a plane of shading space in cosine space, of any length: its dot product with ltc_to_cosine(self, v)
 /// is self.minor * dot(n, v).
-vec3 ltc_normal_to_cosine(Ltc self, vec3 n) {
+vec3 ltc_normal_to_cosine(const Ltc self, vec3 n) {
     return vec3(difference_of_products(self.m22, n.x, self.m20, n.z), self.lateral * n.y,
                 difference_of_products(self.m00, n.z, self.m02, n.x));
 }
@@ -71,7 +71,7 @@ vec3 ltc_normal_to_cosine(Ltc self, vec3 n) {
 /// Density of the lobe with respect to solid angle [1/sr]: it integrates to 1 over the sphere. 0 beyond the horizon of
 /// cosine space, which is not that of the surface: the lobe also has directions below the surface.
 /// \param wi unit direction in shading space.
-float ltc_density(Ltc self, vec3 wi) {
+float ltc_density(const Ltc self, vec3 wi) {
     vec3 o = ltc_to_cosine(self, wi);
     float squared = dot(o, o);
     if (!(squared > 0.0)) return 0.0;

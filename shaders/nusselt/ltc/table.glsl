@@ -43,12 +43,12 @@ LtcTableCell ltc_table_cell(float roughness, float cos_o, float f0, ivec3 sample
 }
 
 /// The indices of a corner of the cell, 0 to 7. Corners 0, 2, 4 and 6 have the smaller f0.
-ivec3 ltc_table_corner(LtcTableCell cell, int corner) {
+ivec3 ltc_table_corner(const LtcTableCell cell, int corner) {
     return cell.low + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
 }
 
 /// The weight of a corner.
-float ltc_table_weight(LtcTableCell cell, int corner) {
+float ltc_table_weight(const LtcTableCell cell, int corner) {
     vec3 w = vec3(1.0) - cell.fraction;
     return ((corner & 4) == 0 ? w.z : cell.fraction.z) * ((corner & 2) == 0 ? w.y : cell.fraction.y) *
            ((corner & 1) == 0 ? w.x : cell.fraction.x);
@@ -65,13 +65,13 @@ struct LtcTableEntry {
     vec3 last;  ///< -m20, m22, albedo
 };
 
-void ltc_table_add(inout LtcTableEntry sum, float weight, LtcTableEntry entry) {
+void ltc_table_add(inout LtcTableEntry sum, float weight, const LtcTableEntry entry) {
     sum.first = nusselt_fma(weight, entry.first, sum.first);
     sum.last = nusselt_fma(weight, entry.last, sum.last);
 }
 
 /// The lobe at the end of a lookup.
-LtcCoefficients ltc_table_coefficients(LtcTableEntry sum) {
+LtcCoefficients ltc_table_coefficients(const LtcTableEntry sum) {
     return LtcCoefficients(sum.first.x, sum.first.y, 1.0 / sum.first.z, -sum.last.x, sum.last.y, sum.last.z);
 }
 

@@ -21,7 +21,7 @@ Permutation make_permutation(uint n) {
 }
 
 /// Each step is a bijection of the numbers up to the mask: who follows the cycle of an index below n comes back to one.
-uint permutation_in_power_of_two(Permutation self, uint index, uint key) {
+uint permutation_in_power_of_two(const Permutation self, uint index, uint key) {
     // Ten rounds: with fewer, pairs of indices prefer some pairs of images.
     for (int round = 0; round < 10; ++round) {
         // High bits of products are the better ones.
@@ -36,7 +36,7 @@ uint permutation_in_power_of_two(Permutation self, uint index, uint key) {
 /// The image of an index.
 /// \param index below n.
 /// \param key   chooses the permutation; random in all bits.
-uint permutation_of(Permutation self, uint index, uint key) {
+uint permutation_of(const Permutation self, uint index, uint key) {
     do index = permutation_in_power_of_two(self, index, key);
     while (index >= self.n);
     return index;
@@ -68,7 +68,7 @@ struct MultiJitterKeys {
 /// \param index  below n.
 /// \param n      1 to 2^22.
 /// \param jitter in [0, 1)^2, independent of that of other points.
-vec2 multi_jittered(uint index, uint n, MultiJitterKeys keys, vec2 jitter) {
+vec2 multi_jittered(uint index, uint n, const MultiJitterKeys keys, vec2 jitter) {
     StratumGrid grid = make_stratum_grid(n);
     uint cell = permutation_of(make_permutation(n), index, keys.order);
     uint column = cell / grid.rows;

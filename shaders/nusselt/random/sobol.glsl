@@ -48,7 +48,7 @@ struct SobolSeeds {
 
 /// Point number index of a sequence with scrambled coordinates and order, in units of 2^-32. Aligned blocks of 2^m
 /// points remain (0, m, 2)-nets, while pairs of dimensions with different seeds know nothing of each other.
-uvec2 owen_scrambled_sobol(uint index, SobolSeeds seeds) {
+uvec2 owen_scrambled_sobol(uint index, const SobolSeeds seeds) {
     uint shuffled = owen_scramble(index, seeds.order);
     return uvec2(reverse_bits(permute_upwards(shuffled, seeds.x)),
                  reverse_bits(permute_upwards(sobol_y_reversed(shuffled), seeds.y)));

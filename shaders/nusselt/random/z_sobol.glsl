@@ -43,7 +43,7 @@ uint pixel_hierarchy_hash(uint x) {
 /// \param number of the pixel in its tile along the Z curve.
 /// \param level  of the quadtree, 0 for single pixels.
 /// \param seed   random in all bits.
-uint pixel_hierarchy_digit(PixelHierarchy self, uint number, uint level, uint seed) {
+uint pixel_hierarchy_digit(const PixelHierarchy self, uint number, uint level, uint seed) {
     // The path to the square, below a bit for the root.
     uint node = ((number >> (2u * level)) >> 2) | (1u << (2u * (self.levels - 1u - level)));
     // Quadrant 0 stays. The others turn by 0 to 2, so that each of them comes to form a half with quadrant 0.
@@ -55,7 +55,7 @@ uint pixel_hierarchy_digit(PixelHierarchy self, uint number, uint level, uint se
 
 /// The index of a sample in the sequence of its tile.
 /// \param seed random in all bits.
-uint pixel_hierarchy_index(PixelHierarchy self, uint x, uint y, uint index, uint seed) {
+uint pixel_hierarchy_index(const PixelHierarchy self, uint x, uint y, uint index, uint seed) {
     uint mask = (1u << self.levels) - 1u;
     uint number = z_order(x & mask, y & mask);
     uint rank = 0u;
@@ -73,7 +73,7 @@ struct ZSobolSeeds {
 /// Sample of a pixel in units of 2^-32: in each aligned square of 2^k x 2^k pixels of a tile, the samples form a
 /// (0, m, 2)-net if their number per pixel is a power of two.
 /// \param index of the sample, below the number of samples that the hierarchy was made for.
-uvec2 z_sobol(PixelHierarchy hierarchy, uint x, uint y, uint index, ZSobolSeeds seeds) {
+uvec2 z_sobol(const PixelHierarchy hierarchy, uint x, uint y, uint index, const ZSobolSeeds seeds) {
     return owen_scrambled_sobol(pixel_hierarchy_index(hierarchy, x, y, index, seeds.quadrants), seeds.points);
 }
 

@@ -55,7 +55,7 @@ float peters_area_of(vec2 u, vec2 s0, vec2 s1) {
 
 /// The area of a sector up to the azimuth of w.
 /// \param central whether the sector begins at the zenith instead of the inner ellipse.
-float azimuth_sector_area_to(AzimuthSector self, vec2 w, bool central) {
+float azimuth_sector_area_to(const AzimuthSector self, vec2 w, bool central) {
     float to_outer = peters_area_of(self.outer, self.s0, w);
     return central ? to_outer : to_outer - peters_area_of(self.inner, self.s0, w);
 }
@@ -112,7 +112,7 @@ void azimuth_sectors_prepare_decentral(inout AzimuthSectors self, vec3 vertex[kN
 }
 
 /// \param light in shading space, either winding [m].
-AzimuthSectors azimuth_sectors_prepare(ConvexPolygon light) {
+AzimuthSectors azimuth_sectors_prepare(const ConvexPolygon light) {
     AzimuthSectors self;
     self.plane_normal = light.normal;
     self.plane_distance = dot(light.normal, light.vertex[0]);
@@ -161,7 +161,7 @@ AzimuthSector azimuth_sectors_select(AzimuthSectors self, inout float area) {
 /// The direction at an azimuth within a sector.
 /// \param w towards the azimuth, of any length.
 /// \param u in [0, 1), uniform in area between both ellipses.
-vec3 azimuth_sectors_direction(AzimuthSectors self, AzimuthSector s, vec2 w, float u) {
+vec3 azimuth_sectors_direction(const AzimuthSectors self, const AzimuthSector s, vec2 w, float u) {
     float squared = u / peters_form(s.outer, w);
     if (!self.central) squared = squared + (1.0 - u) / peters_form(s.inner, w);
     vec2 scaled = sqrt(squared) * w;
@@ -169,16 +169,16 @@ vec3 azimuth_sectors_direction(AzimuthSectors self, AzimuthSector s, vec2 w, flo
 }
 
 /// Adds density and point to a direction on the light. Without light, the density is 0.
-LightSample azimuth_sectors_complete(AzimuthSectors self, vec3 direction) {
+LightSample azimuth_sectors_complete(const AzimuthSectors self, vec3 direction) {
     vec3 wi = self.inverse_total > 0.0 ? direction : vec3(0.0, 0.0, 1.0);
     return LightSample(wi, wi.z * self.inverse_total, (self.plane_distance / dot(self.plane_normal, wi)) * wi);
 }
 
 /// Projected solid angle of the part of the light above the horizon [sr].
-float azimuth_sectors_measure(AzimuthSectors self) { return self.total; }
+float azimuth_sectors_measure(const AzimuthSectors self) { return self.total; }
 
 /// \param wi a unit direction towards the light.
-float azimuth_sectors_pdf(AzimuthSectors self, vec3 wi) { return nusselt_max(wi.z, 0.0) * self.inverse_total; }
+float azimuth_sectors_pdf(const AzimuthSectors self, vec3 wi) { return nusselt_max(wi.z, 0.0) * self.inverse_total; }
 
 /// The random numbers for wi, a unit direction on the light: its share of the area in order of azimuths, and the share of
 /// the area between both ellipses in the direction of the azimuth. At the zenith, both are 0.

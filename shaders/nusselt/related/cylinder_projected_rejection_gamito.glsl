@@ -22,7 +22,7 @@ struct CylinderProjectedRejectionGamito {
 };
 
 /// \param light in shading space [m].
-CylinderProjectedRejectionGamito cylinder_projected_rejection_gamito_prepare(Cylinder light) {
+CylinderProjectedRejectionGamito cylinder_projected_rejection_gamito_prepare(const Cylinder light) {
     float scale = scale_of(light);
     CylinderView view = make_cylinder_view(scaled(light, scale), vec3(0.0));
     return CylinderProjectedRejectionGamito(polygon_projected_solid_angle_prepare(gamito_rectangle_around(view)),
@@ -30,23 +30,23 @@ CylinderProjectedRejectionGamito cylinder_projected_rejection_gamito_prepare(Cyl
 }
 
 /// Projected solid angle of the part of the rectangle above the horizon [sr], which is larger than that of the light.
-float cylinder_projected_rejection_gamito_measure(CylinderProjectedRejectionGamito self) {
+float cylinder_projected_rejection_gamito_measure(const CylinderProjectedRejectionGamito self) {
     return polygon_projected_solid_angle_measure(self.rectangle);
 }
 
 /// The density of directions in the rectangle, whether they hit the cylinder or not.
-float cylinder_projected_rejection_gamito_pdf(CylinderProjectedRejectionGamito self, vec3 wi) {
+float cylinder_projected_rejection_gamito_pdf(const CylinderProjectedRejectionGamito self, vec3 wi) {
     return polygon_projected_solid_angle_pdf(self.rectangle, wi);
 }
 
 /// \param u in [0, 1)^2, of the rectangle.
 /// \return pdf = 0 where the direction misses the cylinder: an estimate counts it as 0.
-LightSample cylinder_projected_rejection_gamito_sample(CylinderProjectedRejectionGamito self, vec2 u) {
+LightSample cylinder_projected_rejection_gamito_sample(const CylinderProjectedRejectionGamito self, vec2 u) {
     return gamito_sample(polygon_projected_solid_angle_sample(self.rectangle, u), self.target, self.inverse_scale);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_projected_rejection_gamito_invert(CylinderProjectedRejectionGamito self, vec3 wi) {
+vec2 cylinder_projected_rejection_gamito_invert(const CylinderProjectedRejectionGamito self, vec3 wi) {
     return polygon_projected_solid_angle_invert(self.rectangle, wi);
 }
 

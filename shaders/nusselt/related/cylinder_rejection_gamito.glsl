@@ -25,7 +25,7 @@ struct GamitoRayTarget {
     float l0, l1; ///< of the caps along s
 };
 
-GamitoRayTarget make_gamito_ray_target(CylinderView view) {
+GamitoRayTarget make_gamito_ray_target(const CylinderView view) {
     return GamitoRayTarget(view.s, view.m, view.n, view.center, view.radius * view.radius, view.gap * view.sum, view.l0,
                            view.l1);
 }
@@ -36,7 +36,7 @@ struct GamitoHit {
 };
 
 /// \param wi unit direction.
-GamitoHit gamito_ray_target_intersect(GamitoRayTarget self, vec3 wi) {
+GamitoHit gamito_ray_target_intersect(const GamitoRayTarget self, vec3 wi) {
     // Intersect the ray with the infinite cylinder. A ray that misses only by rounding touches it.
     vec2 across = vec2(dot(wi, self.m), dot(wi, self.n));
     float squares = dot(across, across);
@@ -63,7 +63,7 @@ GamitoHit gamito_ray_target_intersect(GamitoRayTarget self, vec3 wi) {
 }
 
 /// \returns a polygon of no size if nothing is visible.
-ConvexPolygon gamito_rectangle_around(CylinderView v) {
+ConvexPolygon gamito_rectangle_around(const CylinderView v) {
     vec3 corner = vec3(0.0);
     vec3 first = vec3(0.0);
     vec3 second = vec3(0.0);
@@ -98,7 +98,7 @@ struct CylinderRejectionGamito {
 };
 
 /// \param light relative to the shading point [m].
-CylinderRejectionGamito cylinder_rejection_gamito_prepare(Cylinder light) {
+CylinderRejectionGamito cylinder_rejection_gamito_prepare(const Cylinder light) {
     float scale = scale_of(light);
     CylinderView view = make_cylinder_view(scaled(light, scale), vec3(0.0));
     return CylinderRejectionGamito(rectangle_solid_angle_prepare(gamito_rectangle_around(view)),
@@ -106,29 +106,29 @@ CylinderRejectionGamito cylinder_rejection_gamito_prepare(Cylinder light) {
 }
 
 /// Solid angle of the rectangle [sr], which is larger than that of the light.
-float cylinder_rejection_gamito_measure(CylinderRejectionGamito self) {
+float cylinder_rejection_gamito_measure(const CylinderRejectionGamito self) {
     return rectangle_solid_angle_measure(self.rectangle);
 }
 
 /// The density of directions in the rectangle, whether they hit the cylinder or not.
-float cylinder_rejection_gamito_pdf(CylinderRejectionGamito self, vec3 wi) {
+float cylinder_rejection_gamito_pdf(const CylinderRejectionGamito self, vec3 wi) {
     return rectangle_solid_angle_pdf(self.rectangle, wi);
 }
 
 /// A sample of the rectangle as one of the cylinder.
-LightSample gamito_sample(LightSample s, GamitoRayTarget target, float inverse_scale) {
+LightSample gamito_sample(const LightSample s, const GamitoRayTarget target, float inverse_scale) {
     GamitoHit hit = gamito_ray_target_intersect(target, s.wi);
     return LightSample(s.wi, hit.hits ? s.pdf : 0.0, (inverse_scale * hit.distance) * s.wi);
 }
 
 /// \param u in [0, 1)^2, of the rectangle.
 /// \return pdf = 0 where the direction misses the cylinder: an estimate counts it as 0.
-LightSample cylinder_rejection_gamito_sample(CylinderRejectionGamito self, vec2 u) {
+LightSample cylinder_rejection_gamito_sample(const CylinderRejectionGamito self, vec2 u) {
     return gamito_sample(rectangle_solid_angle_sample(self.rectangle, u), self.target, self.inverse_scale);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_rejection_gamito_invert(CylinderRejectionGamito self, vec3 wi) {
+vec2 cylinder_rejection_gamito_invert(const CylinderRejectionGamito self, vec3 wi) {
     return rectangle_solid_angle_invert(self.rectangle, wi);
 }
 

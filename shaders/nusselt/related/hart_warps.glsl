@@ -33,13 +33,15 @@ HartLinearWarp hart_linear_warp(float at_0, float at_1) {
     return HartLinearWarp(scale * at_0, scale * at_1);
 }
 
-float hart_linear_warp_sample(HartLinearWarp self, float u) { return hart_sample_linear(self.at_0, self.at_1, u); }
+float hart_linear_warp_sample(const HartLinearWarp self, float u) {
+    return hart_sample_linear(self.at_0, self.at_1, u);
+}
 
-float hart_linear_warp_density(HartLinearWarp self, float x) {
+float hart_linear_warp_density(const HartLinearWarp self, float x) {
     return nusselt_fma(1.0 - x, self.at_0, x * self.at_1);
 }
 
-float hart_linear_warp_invert(HartLinearWarp self, float x) {
+float hart_linear_warp_invert(const HartLinearWarp self, float x) {
     // Both values sum up to 2.
     return below_one(x * nusselt_fma(1.0 - x, self.at_0, x));
 }
@@ -58,18 +60,18 @@ HartQuadraticWarp hart_quadratic_warp(float p, float q, float r) {
     return HartQuadraticWarp(scale * p, scale * q, scale * r);
 }
 
-float hart_quadratic_warp_density(HartQuadraticWarp self, float x) {
+float hart_quadratic_warp_density(const HartQuadraticWarp self, float x) {
     float w = 1.0 - x;
     return nusselt_fma(w, nusselt_fma(self.p, w, 2.0 * self.q * x), self.r * x * x);
 }
 
 /// \param w 1 - x.
-float hart_quadratic_warp_distribution(HartQuadraticWarp self, float x, float w) {
+float hart_quadratic_warp_distribution(const HartQuadraticWarp self, float x, float w) {
     return x * nusselt_fma(self.p * w, w, x * nusselt_fma(self.p + self.q, w, x));
 }
 
 /// Solves F(x) = u for x in [0, 1/2].
-float hart_quadratic_warp_invert_half(HartQuadraticWarp self, float u) {
+float hart_quadratic_warp_invert_half(const HartQuadraticWarp self, float u) {
     // F(x) = p x + (q - p) x^2 + (1 - q) x^3. Combine the root for the terms up to the second order with that for the third
     // order as reciprocal squares. Roots of u stand for its third root.
     float discriminant = nusselt_fma(self.p, self.p, 4.0 * (self.q - self.p) * u);
@@ -92,7 +94,7 @@ float hart_quadratic_warp_invert_half(HartQuadraticWarp self, float u) {
     return x;
 }
 
-float hart_quadratic_warp_sample(HartQuadraticWarp self, float u) {
+float hart_quadratic_warp_sample(const HartQuadraticWarp self, float u) {
     // Search in the half [0, 1/2] of the density or of its mirror image.
     float at_half = (1.0 / 24.0) * nusselt_fma(7.0, self.p, nusselt_fma(4.0, self.q, self.r));
     bool mirrored = u > at_half;
@@ -102,7 +104,7 @@ float hart_quadratic_warp_sample(HartQuadraticWarp self, float u) {
     return below_one(mirrored ? 1.0 - x : x);
 }
 
-float hart_quadratic_warp_invert(HartQuadraticWarp self, float x) {
+float hart_quadratic_warp_invert(const HartQuadraticWarp self, float x) {
     return below_one(hart_quadratic_warp_distribution(self, x, 1.0 - x));
 }
 
@@ -119,7 +121,7 @@ struct HartBilinearWarp {
 };
 
 /// \param value of the target, not negative, not normalised.
-HartBilinearWarp hart_bilinear_warp(FanCorners value) {
+HartBilinearWarp hart_bilinear_warp(const FanCorners value) {
     HartLinearWarp marginal = hart_linear_warp(2.0 * value.apex, value.first + value.last);
     float sum = 2.0 * value.apex + (value.first + value.last);
     if (!(sum > kNusseltLeastSum)) return HartBilinearWarp(marginal, 1.0, 1.0, 1.0);
@@ -128,22 +130,22 @@ HartBilinearWarp hart_bilinear_warp(FanCorners value) {
 }
 
 /// Values at both ends of a row of the square.
-vec2 hart_bilinear_warp_row(HartBilinearWarp self, float y) {
+vec2 hart_bilinear_warp_row(const HartBilinearWarp self, float y) {
     return vec2(nusselt_fma(1.0 - y, self.apex, y * self.first), nusselt_fma(1.0 - y, self.apex, y * self.last));
 }
 
-vec2 hart_bilinear_warp_sample(HartBilinearWarp self, vec2 u) {
+vec2 hart_bilinear_warp_sample(const HartBilinearWarp self, vec2 u) {
     float y = hart_linear_warp_sample(self.marginal, u.y);
     vec2 row = hart_bilinear_warp_row(self, y);
     return vec2(hart_sample_linear(row.x, row.y, u.x), y);
 }
 
-float hart_bilinear_warp_density(HartBilinearWarp self, vec2 x) {
+float hart_bilinear_warp_density(const HartBilinearWarp self, vec2 x) {
     vec2 row = hart_bilinear_warp_row(self, x.y);
     return nusselt_fma(1.0 - x.x, row.x, x.x * row.y);
 }
 
-vec2 hart_bilinear_warp_invert(HartBilinearWarp self, vec2 x) {
+vec2 hart_bilinear_warp_invert(const HartBilinearWarp self, vec2 x) {
     vec2 row = hart_bilinear_warp_row(self, x.y);
     return vec2(hart_linear_warp_invert(hart_linear_warp(row.x, row.y), x.x),
                 hart_linear_warp_invert(self.marginal, x.y));
@@ -170,24 +172,24 @@ HartBiquadraticWarp hart_biquadratic_warp(float apex, vec3 middle, vec3 end) {
 }
 
 /// The control values of a row of the square.
-vec3 hart_biquadratic_warp_row(HartBiquadraticWarp self, float y) {
+vec3 hart_biquadratic_warp_row(const HartBiquadraticWarp self, float y) {
     float w = 1.0 - y;
     vec3 at_apex = vec3(w * w * self.apex);
     return nusselt_fma(y * y, self.end, nusselt_fma(2.0 * w * y, self.middle, at_apex));
 }
 
-vec2 hart_biquadratic_warp_sample(HartBiquadraticWarp self, vec2 u) {
+vec2 hart_biquadratic_warp_sample(const HartBiquadraticWarp self, vec2 u) {
     float y = hart_quadratic_warp_sample(self.marginal, u.y);
     vec3 row = hart_biquadratic_warp_row(self, y);
     return vec2(hart_quadratic_warp_sample(hart_quadratic_warp(row.x, row.y, row.z), u.x), y);
 }
 
-float hart_biquadratic_warp_density(HartBiquadraticWarp self, vec2 x) {
+float hart_biquadratic_warp_density(const HartBiquadraticWarp self, vec2 x) {
     vec3 row = hart_biquadratic_warp_row(self, x.y);
     return hart_quadratic_warp_density(HartQuadraticWarp(row.x, row.y, row.z), x.x);
 }
 
-vec2 hart_biquadratic_warp_invert(HartBiquadraticWarp self, vec2 x) {
+vec2 hart_biquadratic_warp_invert(const HartBiquadraticWarp self, vec2 x) {
     vec3 row = hart_biquadratic_warp_row(self, x.y);
     return vec2(hart_quadratic_warp_invert(hart_quadratic_warp(row.x, row.y, row.z), x.x),
                 hart_quadratic_warp_invert(self.marginal, x.y));

@@ -27,14 +27,14 @@ struct LineProjectedSolidAngleLi {
 };
 
 /// Twice the integral of the cosine over the angle up to the coordinate x along the line, in units of the distance.
-float li_integral(LineProjectedSolidAngleLi self, float x) {
+float li_integral(const LineProjectedSolidAngleLi self, float x) {
     float angle = copysign(peters_atan2_positive(abs(x), 1.0), x);
     float ratio = x / nusselt_fma(x, x, 1.0);
     return nusselt_fma(self.s.z, x * ratio, self.t.z * (ratio + angle));
 }
 
 /// Share of the measure before the coordinate x.
-float li_share(LineProjectedSolidAngleLi self, float x) {
+float li_share(const LineProjectedSolidAngleLi self, float x) {
     return (li_integral(self, x) - self.start_integral) * self.inverse_total;
 }
 
@@ -42,7 +42,7 @@ float li_share(LineProjectedSolidAngleLi self, float x) {
 bool li_has_reciprocal(float x) { return x > kNusseltSmallestNormal && x < 1.0 / kNusseltSmallestNormal; }
 
 /// \param light in shading space [m].
-LineProjectedSolidAngleLi line_projected_solid_angle_li_prepare(LineSegment light) {
+LineProjectedSolidAngleLi line_projected_solid_angle_li_prepare(const LineSegment light) {
     LineProjectedSolidAngleLi self;
     self.s = light.s;
     // The infinite line by its point that is closest to the origin.
@@ -78,15 +78,15 @@ LineProjectedSolidAngleLi line_projected_solid_angle_li_prepare(LineSegment ligh
 }
 
 /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
-float line_projected_solid_angle_li_measure(LineProjectedSolidAngleLi self) { return self.measure; }
+float line_projected_solid_angle_li_measure(const LineProjectedSolidAngleLi self) { return self.measure; }
 
 /// \param wi a unit direction towards the light.
-float line_projected_solid_angle_li_pdf(LineProjectedSolidAngleLi self, vec3 wi) {
+float line_projected_solid_angle_li_pdf(const LineProjectedSolidAngleLi self, vec3 wi) {
     return nusselt_max(wi.z, 0.0) * self.inverse_measure;
 }
 
 /// The coordinate of a sample.
-float line_projected_solid_angle_li_coordinate(LineProjectedSolidAngleLi self, float u) {
+float line_projected_solid_angle_li_coordinate(const LineProjectedSolidAngleLi self, float u) {
     float low = self.low;
     float high = self.high;
     float x = 0.5 * (low + high);
@@ -109,7 +109,7 @@ float line_projected_solid_angle_li_coordinate(LineProjectedSolidAngleLi self, f
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end, apart from jumps of up to twice the
 ///          tolerance where the number of steps changes.
-LightSample line_projected_solid_angle_li_sample(LineProjectedSolidAngleLi self, float u) {
+LightSample line_projected_solid_angle_li_sample(const LineProjectedSolidAngleLi self, float u) {
     float x = line_projected_solid_angle_li_coordinate(self, u);
     vec3 wi = (1.0 / sqrt(nusselt_fma(x, x, 1.0))) * nusselt_fma(x, self.s, self.t);
     wi.z = nusselt_max(wi.z, 0.0);
@@ -118,7 +118,7 @@ LightSample line_projected_solid_angle_li_sample(LineProjectedSolidAngleLi self,
 }
 
 /// The random number for which wi, a unit direction on the light, would be the exact sample.
-float line_projected_solid_angle_li_invert(LineProjectedSolidAngleLi self, vec3 wi) {
+float line_projected_solid_angle_li_invert(const LineProjectedSolidAngleLi self, vec3 wi) {
     float across = dot(wi, self.t);
     float x = dot(wi, self.s) / (across > 0.0 ? across : 1.0);
     return below_one(li_share(self, nusselt_min(nusselt_max(x, self.low), self.high)));

@@ -30,7 +30,7 @@ float peters_line_integral(float n_s, float n_t, float w_s) {
 }
 
 /// \param light in shading space [m].
-LineProjectedSolidAnglePeters line_projected_solid_angle_peters_prepare(LineSegment light) {
+LineProjectedSolidAnglePeters line_projected_solid_angle_peters_prepare(const LineSegment light) {
     LineProjectedSolidAnglePeters self;
     self.l0 = light.p0;
     self.s = light.s;
@@ -66,17 +66,17 @@ LineProjectedSolidAnglePeters line_projected_solid_angle_peters_prepare(LineSegm
 }
 
 /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
-float line_projected_solid_angle_peters_measure(LineProjectedSolidAnglePeters self) {
+float line_projected_solid_angle_peters_measure(const LineProjectedSolidAnglePeters self) {
     return self.inverse_q * self.total;
 }
 
 /// \param wi a unit direction towards the light.
-float line_projected_solid_angle_peters_pdf(LineProjectedSolidAnglePeters self, vec3 wi) {
+float line_projected_solid_angle_peters_pdf(const LineProjectedSolidAnglePeters self, vec3 wi) {
     return wi.z / line_projected_solid_angle_peters_measure(self);
 }
 
 /// Algorithm 2: w_s and w_t.
-vec2 line_projected_solid_angle_peters_coordinates(LineProjectedSolidAnglePeters self, float u) {
+vec2 line_projected_solid_angle_peters_coordinates(const LineProjectedSolidAnglePeters self, float u) {
     float w_s = peters_clamped(self.start_s + u * self.extent_s);
     vec2 w = vec2(w_s, sqrt(1.0 - w_s * w_s));
     if (u >= 1e-5 && u <= 1.0 - 1e-5) {
@@ -99,19 +99,19 @@ vec2 line_projected_solid_angle_peters_coordinates(LineProjectedSolidAnglePeters
 }
 
 /// The direction w_s s + w_t t, given w_t over the distance of the line.
-vec3 line_projected_solid_angle_peters_along(LineProjectedSolidAnglePeters self, float w_s, float scaled_w_t) {
+vec3 line_projected_solid_angle_peters_along(const LineProjectedSolidAnglePeters self, float w_s, float scaled_w_t) {
     return (w_s - scaled_w_t * self.l0_s) * self.s + scaled_w_t * self.l0;
 }
 
 /// \param u in [0, 1).
 /// \returns the direction alone, as the paper does; line_projected_solid_angle_peters_sample() adds density and point.
-vec3 line_projected_solid_angle_peters_direction(LineProjectedSolidAnglePeters self, float u) {
+vec3 line_projected_solid_angle_peters_direction(const LineProjectedSolidAnglePeters self, float u) {
     vec2 w = line_projected_solid_angle_peters_coordinates(self, u);
     return line_projected_solid_angle_peters_along(self, w.x, self.inverse_q * w.y);
 }
 
 /// \param u in [0, 1).
-LightSample line_projected_solid_angle_peters_sample(LineProjectedSolidAnglePeters self, float u) {
+LightSample line_projected_solid_angle_peters_sample(const LineProjectedSolidAnglePeters self, float u) {
     vec2 w = line_projected_solid_angle_peters_coordinates(self, u);
     float scaled_w_t = self.inverse_q * w.y;
     vec3 wi = line_projected_solid_angle_peters_along(self, w.x, scaled_w_t);

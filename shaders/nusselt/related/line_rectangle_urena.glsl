@@ -25,7 +25,7 @@ struct LineRectangleUrena {
 };
 
 /// \param light relative to the shading point [m].
-LineRectangleUrena line_rectangle_urena_prepare(LineSegment light) {
+LineRectangleUrena line_rectangle_urena_prepare(const LineSegment light) {
     float scale = scale_of(light);
     LineSegment unit = scaled(light, scale);
     CenteredLine line = centered(unit);
@@ -45,19 +45,19 @@ LineRectangleUrena line_rectangle_urena_prepare(LineSegment light) {
 }
 
 /// Solid angle per radius [sr/m].
-float line_rectangle_urena_measure(LineRectangleUrena self) { return self.measure; }
+float line_rectangle_urena_measure(const LineRectangleUrena self) { return self.measure; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float line_rectangle_urena_pdf(LineRectangleUrena self, vec3 wi) { return self.density; }
+float line_rectangle_urena_pdf(const LineRectangleUrena self, vec3 wi) { return self.density; }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_rectangle_urena_sample(LineRectangleUrena self, float u) {
+LightSample line_rectangle_urena_sample(const LineRectangleUrena self, float u) {
     LightSample s = rectangle_solid_angle_sample(self.rectangle, vec2(u, 0.5));
     return LightSample(s.wi, self.density, self.inverse_scale * s.p);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_rectangle_urena_invert(LineRectangleUrena self, vec3 wi) {
+float line_rectangle_urena_invert(const LineRectangleUrena self, vec3 wi) {
     return rectangle_solid_angle_invert(self.rectangle, wi).x;
 }
 

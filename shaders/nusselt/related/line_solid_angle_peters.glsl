@@ -19,7 +19,7 @@ struct LineSolidAnglePeters {
 };
 
 /// \param light relative to the shading point [m].
-LineSolidAnglePeters line_solid_angle_peters_prepare(LineSegment light) {
+LineSolidAnglePeters line_solid_angle_peters_prepare(const LineSegment light) {
     float l0_s = dot(light.p0, light.s);
     float squared_l0 = dot(light.p0, light.p0);
     float squared_q = squared_l0 - l0_s * l0_s;
@@ -30,27 +30,27 @@ LineSolidAnglePeters line_solid_angle_peters_prepare(LineSegment light) {
 }
 
 /// Solid angle per radius [sr/m].
-float line_solid_angle_peters_measure(LineSolidAnglePeters self) { return 2.0 * self.inverse_q * self.extent_s; }
+float line_solid_angle_peters_measure(const LineSolidAnglePeters self) { return 2.0 * self.inverse_q * self.extent_s; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float line_solid_angle_peters_pdf(LineSolidAnglePeters self, vec3 wi) {
+float line_solid_angle_peters_pdf(const LineSolidAnglePeters self, vec3 wi) {
     return 1.0 / line_solid_angle_peters_measure(self);
 }
 
 /// The direction w_s s + w_t t, given w_t over the distance of the line.
-vec3 line_solid_angle_peters_along(LineSolidAnglePeters self, float w_s, float scaled_w_t) {
+vec3 line_solid_angle_peters_along(const LineSolidAnglePeters self, float w_s, float scaled_w_t) {
     return (w_s - scaled_w_t * self.l0_s) * self.s + scaled_w_t * self.l0;
 }
 
 /// \param u in [0, 1).
 /// \returns the direction alone, as the paper does; line_solid_angle_peters_sample() adds density and point.
-vec3 line_solid_angle_peters_direction(LineSolidAnglePeters self, float u) {
+vec3 line_solid_angle_peters_direction(const LineSolidAnglePeters self, float u) {
     float w_s = self.start_s + u * self.extent_s;
     return line_solid_angle_peters_along(self, w_s, self.inverse_q * sqrt(nusselt_max(1.0 - w_s * w_s, 0.0)));
 }
 
 /// \param u in [0, 1).
-LightSample line_solid_angle_peters_sample(LineSolidAnglePeters self, float u) {
+LightSample line_solid_angle_peters_sample(const LineSolidAnglePeters self, float u) {
     float w_s = self.start_s + u * self.extent_s;
     float scaled_w_t = self.inverse_q * sqrt(nusselt_max(1.0 - w_s * w_s, 0.0));
     vec3 wi = line_solid_angle_peters_along(self, w_s, scaled_w_t);

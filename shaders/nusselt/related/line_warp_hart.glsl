@@ -16,7 +16,7 @@
 #include "../sampling/line_solid_angle.glsl"
 
 /// Cosines at the surface, or 0 below the horizon, of both ends. A point on the horizon that replaces an end has 0, too.
-vec2 hart_end_cosines(LineSegment light) {
+vec2 hart_end_cosines(const LineSegment light) {
     float begin = nusselt_normalize(light.p0).z;
     float end = nusselt_normalize(light.p0 + light.len * light.s).z;
     return vec2(nusselt_max(begin, 0.0), nusselt_max(end, 0.0));
@@ -35,41 +35,41 @@ struct LineLinearWarpHart {
 };
 
 /// \param base of the light, clipped or not.
-LineLinearWarpHart line_linear_warp_hart_prepare_base(LineSegment light, LineSolidAngle base) {
+LineLinearWarpHart line_linear_warp_hart_prepare_base(const LineSegment light, const LineSolidAngle base) {
     vec2 ends = hart_end_cosines(light);
     return LineLinearWarpHart(base, hart_linear_warp(ends.x, ends.y));
 }
 
 /// \param light in shading space [m].
-LineLinearWarpHart line_linear_warp_hart_prepare(LineSegment light) {
+LineLinearWarpHart line_linear_warp_hart_prepare(const LineSegment light) {
     return line_linear_warp_hart_prepare_base(light, line_solid_angle_prepare(light));
 }
 
 /// Prepares the part of a light above the horizon.
 /// \param light in shading space [m].
-LineLinearWarpHart line_clipped_linear_warp_hart_prepare(LineSegment light) {
+LineLinearWarpHart line_clipped_linear_warp_hart_prepare(const LineSegment light) {
     return line_linear_warp_hart_prepare_base(light, line_clipped_solid_angle_prepare(light));
 }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_linear_warp_hart_sample(LineLinearWarpHart self, float u) {
+LightSample line_linear_warp_hart_sample(const LineLinearWarpHart self, float u) {
     float x = hart_linear_warp_sample(self.warp, u);
     return hart_weighted_sample(line_solid_angle_sample(self.base, x), hart_linear_warp_density(self.warp, x));
 }
 
 /// \param wi a unit direction on the light.
-float line_linear_warp_hart_pdf(LineLinearWarpHart self, vec3 wi) {
+float line_linear_warp_hart_pdf(const LineLinearWarpHart self, vec3 wi) {
     float density = hart_linear_warp_density(self.warp, line_solid_angle_invert(self.base, wi));
     return nusselt_min(density * line_solid_angle_pdf(self.base, wi), kNusseltLargest);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_linear_warp_hart_invert(LineLinearWarpHart self, vec3 wi) {
+float line_linear_warp_hart_invert(const LineLinearWarpHart self, vec3 wi) {
     return hart_linear_warp_invert(self.warp, line_solid_angle_invert(self.base, wi));
 }
 
 /// Solid angle per radius of the light or of its part above the horizon [sr/m].
-float line_linear_warp_hart_measure(LineLinearWarpHart self) { return line_solid_angle_measure(self.base); }
+float line_linear_warp_hart_measure(const LineLinearWarpHart self) { return line_solid_angle_measure(self.base); }
 
 /// With a quadratic warp.
 struct LineQuadraticWarpHart {
@@ -78,41 +78,41 @@ struct LineQuadraticWarpHart {
 };
 
 /// \param base of the light, clipped or not.
-LineQuadraticWarpHart line_quadratic_warp_hart_prepare_base(LineSegment light, LineSolidAngle base) {
+LineQuadraticWarpHart line_quadratic_warp_hart_prepare_base(const LineSegment light, const LineSolidAngle base) {
     vec2 ends = hart_end_cosines(light);
     float middle = nusselt_max(line_solid_angle_sample(base, 0.5).wi.z, 0.0);
     return LineQuadraticWarpHart(base, hart_quadratic_warp(ends.x, middle, ends.y));
 }
 
 /// \param light in shading space [m].
-LineQuadraticWarpHart line_quadratic_warp_hart_prepare(LineSegment light) {
+LineQuadraticWarpHart line_quadratic_warp_hart_prepare(const LineSegment light) {
     return line_quadratic_warp_hart_prepare_base(light, line_solid_angle_prepare(light));
 }
 
 /// Prepares the part of a light above the horizon.
 /// \param light in shading space [m].
-LineQuadraticWarpHart line_clipped_quadratic_warp_hart_prepare(LineSegment light) {
+LineQuadraticWarpHart line_clipped_quadratic_warp_hart_prepare(const LineSegment light) {
     return line_quadratic_warp_hart_prepare_base(light, line_clipped_solid_angle_prepare(light));
 }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_quadratic_warp_hart_sample(LineQuadraticWarpHart self, float u) {
+LightSample line_quadratic_warp_hart_sample(const LineQuadraticWarpHart self, float u) {
     float x = hart_quadratic_warp_sample(self.warp, u);
     return hart_weighted_sample(line_solid_angle_sample(self.base, x), hart_quadratic_warp_density(self.warp, x));
 }
 
 /// \param wi a unit direction on the light.
-float line_quadratic_warp_hart_pdf(LineQuadraticWarpHart self, vec3 wi) {
+float line_quadratic_warp_hart_pdf(const LineQuadraticWarpHart self, vec3 wi) {
     float density = hart_quadratic_warp_density(self.warp, line_solid_angle_invert(self.base, wi));
     return nusselt_min(density * line_solid_angle_pdf(self.base, wi), kNusseltLargest);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_quadratic_warp_hart_invert(LineQuadraticWarpHart self, vec3 wi) {
+float line_quadratic_warp_hart_invert(const LineQuadraticWarpHart self, vec3 wi) {
     return hart_quadratic_warp_invert(self.warp, line_solid_angle_invert(self.base, wi));
 }
 
 /// Solid angle per radius of the light or of its part above the horizon [sr/m].
-float line_quadratic_warp_hart_measure(LineQuadraticWarpHart self) { return line_solid_angle_measure(self.base); }
+float line_quadratic_warp_hart_measure(const LineQuadraticWarpHart self) { return line_solid_angle_measure(self.base); }
 
 #endif

@@ -20,7 +20,7 @@ struct PolygonProjectedSolidAngleArvo {
 };
 
 /// The direction at an angle from the unit vector `begin`.
-vec2 arvo_turned(vec2 begin, SinCos angle) { return angle.cosine * begin + angle.sine * vec2(-begin.y, begin.x); }
+vec2 arvo_turned(vec2 begin, const SinCos angle) { return angle.cosine * begin + angle.sine * vec2(-begin.y, begin.x); }
 
 vec2 arvo_unit(vec2 w) { return (1.0 / sqrt(dot(w, w))) * w; }
 
@@ -50,7 +50,7 @@ void arvo_prepare_start(inout PolygonProjectedSolidAngleArvo self, int k) {
 }
 
 /// \param light in shading space, either winding [m].
-PolygonProjectedSolidAngleArvo polygon_projected_solid_angle_arvo_prepare(ConvexPolygon light) {
+PolygonProjectedSolidAngleArvo polygon_projected_solid_angle_arvo_prepare(const ConvexPolygon light) {
     PolygonProjectedSolidAngleArvo self;
     self.sectors = azimuth_sectors_prepare(light);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
@@ -62,20 +62,22 @@ PolygonProjectedSolidAngleArvo polygon_projected_solid_angle_arvo_prepare(Convex
 }
 
 /// \copydoc azimuth_sectors_measure
-float polygon_projected_solid_angle_arvo_measure(PolygonProjectedSolidAngleArvo self) { return azimuth_sectors_measure(self.sectors); }
+float polygon_projected_solid_angle_arvo_measure(const PolygonProjectedSolidAngleArvo self) {
+    return azimuth_sectors_measure(self.sectors);
+}
 
 /// \copydoc azimuth_sectors_pdf
-float polygon_projected_solid_angle_arvo_pdf(PolygonProjectedSolidAngleArvo self, vec3 wi) {
+float polygon_projected_solid_angle_arvo_pdf(const PolygonProjectedSolidAngleArvo self, vec3 wi) {
     return azimuth_sectors_pdf(self.sectors, wi);
 }
 
 /// \copydoc azimuth_sectors_invert
-vec2 polygon_projected_solid_angle_arvo_invert(PolygonProjectedSolidAngleArvo self, vec3 wi) {
+vec2 polygon_projected_solid_angle_arvo_invert(const PolygonProjectedSolidAngleArvo self, vec3 wi) {
     return azimuth_sectors_invert(self.sectors, wi);
 }
 
 /// The azimuth up to which a sector has an area.
-vec2 arvo_invert_area(AzimuthSector s, vec3 cubic, float sweep, float area, bool central) {
+vec2 arvo_invert_area(const AzimuthSector s, vec3 cubic, float sweep, float area, bool central) {
     vec2 begin = arvo_unit(s.s0);
     float share = area / s.area;
     // Where the polynomial leaves the sector, the angle starts in proportion to the area.
@@ -119,7 +121,7 @@ vec3 polygon_projected_solid_angle_arvo_direction(PolygonProjectedSolidAngleArvo
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_projected_solid_angle_arvo_sample(PolygonProjectedSolidAngleArvo self, vec2 u) {
+LightSample polygon_projected_solid_angle_arvo_sample(const PolygonProjectedSolidAngleArvo self, vec2 u) {
     return azimuth_sectors_complete(self.sectors, polygon_projected_solid_angle_arvo_direction(self, u));
 }
 

@@ -18,27 +18,29 @@ struct PolygonProjectedSolidAngleBisection {
 };
 
 /// \param light in shading space, either winding [m].
-PolygonProjectedSolidAngleBisection polygon_projected_solid_angle_bisection_prepare(ConvexPolygon light) {
+PolygonProjectedSolidAngleBisection polygon_projected_solid_angle_bisection_prepare(const ConvexPolygon light) {
     return PolygonProjectedSolidAngleBisection(azimuth_sectors_prepare(light));
 }
 
 /// \copydoc azimuth_sectors_measure
-float polygon_projected_solid_angle_bisection_measure(PolygonProjectedSolidAngleBisection self) { return azimuth_sectors_measure(self.sectors); }
+float polygon_projected_solid_angle_bisection_measure(const PolygonProjectedSolidAngleBisection self) {
+    return azimuth_sectors_measure(self.sectors);
+}
 
 /// \copydoc azimuth_sectors_pdf
-float polygon_projected_solid_angle_bisection_pdf(PolygonProjectedSolidAngleBisection self, vec3 wi) {
+float polygon_projected_solid_angle_bisection_pdf(const PolygonProjectedSolidAngleBisection self, vec3 wi) {
     return azimuth_sectors_pdf(self.sectors, wi);
 }
 
 /// \copydoc azimuth_sectors_invert
-vec2 polygon_projected_solid_angle_bisection_invert(PolygonProjectedSolidAngleBisection self, vec3 wi) {
+vec2 polygon_projected_solid_angle_bisection_invert(const PolygonProjectedSolidAngleBisection self, vec3 wi) {
     return azimuth_sectors_invert(self.sectors, wi);
 }
 
 vec2 bisection_unit(vec2 w) { return (1.0 / sqrt(dot(w, w))) * w; }
 
 /// The middle of the interval of azimuths that is left after all steps.
-vec2 bisection_invert_area(AzimuthSector s, float area, bool central) {
+vec2 bisection_invert_area(const AzimuthSector s, float area, bool central) {
     vec2 low = bisection_unit(s.s0);
     vec2 high = bisection_unit(s.s1);
     // The sum of almost opposite vectors would not be accurate.
@@ -55,7 +57,7 @@ vec2 bisection_invert_area(AzimuthSector s, float area, bool central) {
 
 /// \param u in [0, 1)^2; x selects the azimuth, y the inclination.
 /// \returns the direction alone; polygon_projected_solid_angle_bisection_sample() adds density and point.
-vec3 polygon_projected_solid_angle_bisection_direction(PolygonProjectedSolidAngleBisection self, vec2 u) {
+vec3 polygon_projected_solid_angle_bisection_direction(const PolygonProjectedSolidAngleBisection self, vec2 u) {
     float area = u.x * self.sectors.total;
     AzimuthSector s = azimuth_sectors_select(self.sectors, area);
     vec2 w = bisection_invert_area(s, area, self.sectors.central);
@@ -63,7 +65,7 @@ vec3 polygon_projected_solid_angle_bisection_direction(PolygonProjectedSolidAngl
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_projected_solid_angle_bisection_sample(PolygonProjectedSolidAngleBisection self, vec2 u) {
+LightSample polygon_projected_solid_angle_bisection_sample(const PolygonProjectedSolidAngleBisection self, vec2 u) {
     return azimuth_sectors_complete(self.sectors, polygon_projected_solid_angle_bisection_direction(self, u));
 }
 

@@ -23,25 +23,27 @@ vec2 peters_root(float a, float b, float c) {
 }
 
 /// \param light in shading space, either winding [m].
-PolygonProjectedSolidAnglePeters polygon_projected_solid_angle_peters_prepare(ConvexPolygon light) {
+PolygonProjectedSolidAnglePeters polygon_projected_solid_angle_peters_prepare(const ConvexPolygon light) {
     return PolygonProjectedSolidAnglePeters(azimuth_sectors_prepare(light));
 }
 
 /// \copydoc azimuth_sectors_measure
-float polygon_projected_solid_angle_peters_measure(PolygonProjectedSolidAnglePeters self) { return azimuth_sectors_measure(self.sectors); }
+float polygon_projected_solid_angle_peters_measure(const PolygonProjectedSolidAnglePeters self) {
+    return azimuth_sectors_measure(self.sectors);
+}
 
 /// \copydoc azimuth_sectors_pdf
-float polygon_projected_solid_angle_peters_pdf(PolygonProjectedSolidAnglePeters self, vec3 wi) {
+float polygon_projected_solid_angle_peters_pdf(const PolygonProjectedSolidAnglePeters self, vec3 wi) {
     return azimuth_sectors_pdf(self.sectors, wi);
 }
 
 /// \copydoc azimuth_sectors_invert
-vec2 polygon_projected_solid_angle_peters_invert(PolygonProjectedSolidAnglePeters self, vec3 wi) {
+vec2 polygon_projected_solid_angle_peters_invert(const PolygonProjectedSolidAnglePeters self, vec3 wi) {
     return azimuth_sectors_invert(self.sectors, wi);
 }
 
 /// Sec. 3.2.
-vec2 peters_invert_central(AzimuthSector s, float area) {
+vec2 peters_invert_central(const AzimuthSector s, float area) {
     float root = sqrt(1.0 + dot(s.outer, s.outer));
     vec2 c = peters_times(s.outer, s.s0);
     SinCos angle = peters_sincos_half_turn(2.0 * root * area);
@@ -49,7 +51,7 @@ vec2 peters_invert_central(AzimuthSector s, float area) {
 }
 
 /// Sec. 3.4 and two steps of Sec. 3.3.
-vec2 peters_invert_decentral(AzimuthSector s, float area) {
+vec2 peters_invert_decentral(const AzimuthSector s, float area) {
     vec2 s0 = (1.0 / sqrt(dot(s.s0, s.s0))) * s.s0;
     vec2 s1 = (1.0 / sqrt(dot(s.s1, s.s1))) * s.s1;
     vec2 sh = s0 + s1;
@@ -93,7 +95,7 @@ vec2 peters_invert_decentral(AzimuthSector s, float area) {
 
 /// \param u in [0, 1)^2.
 /// \returns the direction alone, as the paper does; polygon_projected_solid_angle_peters_sample() adds density and point.
-vec3 polygon_projected_solid_angle_peters_direction(PolygonProjectedSolidAnglePeters self, vec2 u) {
+vec3 polygon_projected_solid_angle_peters_direction(const PolygonProjectedSolidAnglePeters self, vec2 u) {
     float area = u.x * self.sectors.total;
     AzimuthSector s = azimuth_sectors_select(self.sectors, area);
     vec2 w;
@@ -103,7 +105,7 @@ vec3 polygon_projected_solid_angle_peters_direction(PolygonProjectedSolidAnglePe
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_projected_solid_angle_peters_sample(PolygonProjectedSolidAnglePeters self, vec2 u) {
+LightSample polygon_projected_solid_angle_peters_sample(const PolygonProjectedSolidAnglePeters self, vec2 u) {
     return azimuth_sectors_complete(self.sectors, polygon_projected_solid_angle_peters_direction(self, u));
 }
 

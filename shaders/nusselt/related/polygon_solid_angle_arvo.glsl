@@ -38,10 +38,10 @@ PolygonSolidAngleArvo polygon_solid_angle_arvo_prepare(ConvexPolygon light) {
 }
 
 /// Solid angle of the light [sr].
-float polygon_solid_angle_arvo_measure(PolygonSolidAngleArvo self) { return self.total; }
+float polygon_solid_angle_arvo_measure(const PolygonSolidAngleArvo self) { return self.total; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float polygon_solid_angle_arvo_pdf(PolygonSolidAngleArvo self, vec3 wi) { return self.inverse_total; }
+float polygon_solid_angle_arvo_pdf(const PolygonSolidAngleArvo self, vec3 wi) { return self.inverse_total; }
 
 /// The random numbers for which polygon_solid_angle_arvo_sample() returns wi, a unit direction on the light.
 vec2 polygon_solid_angle_arvo_invert(PolygonSolidAngleArvo self, vec3 wi) {
@@ -72,7 +72,7 @@ vec3 polygon_solid_angle_arvo_direction(PolygonSolidAngleArvo self, vec2 u) {
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_solid_angle_arvo_sample(PolygonSolidAngleArvo self, vec2 u) {
+LightSample polygon_solid_angle_arvo_sample(const PolygonSolidAngleArvo self, vec2 u) {
     vec3 wi = self.inverse_total > 0.0 ? polygon_solid_angle_arvo_direction(self, u) : vec3(0.0, 0.0, 1.0);
     return LightSample(wi, self.inverse_total, (self.plane_distance / dot(self.plane_normal, wi)) * wi);
 }

@@ -51,10 +51,10 @@ PolygonSolidAnglePeters polygon_solid_angle_peters_prepare(ConvexPolygon light) 
 }
 
 /// Solid angle of the light [sr].
-float polygon_solid_angle_peters_measure(PolygonSolidAnglePeters self) { return self.total; }
+float polygon_solid_angle_peters_measure(const PolygonSolidAnglePeters self) { return self.total; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float polygon_solid_angle_peters_pdf(PolygonSolidAnglePeters self, vec3 wi) { return 1.0 / self.total; }
+float polygon_solid_angle_peters_pdf(const PolygonSolidAnglePeters self, vec3 wi) { return 1.0 / self.total; }
 
 /// \param u in [0, 1)^2.
 /// \returns the direction alone, as the paper does; polygon_solid_angle_peters_sample() adds density and point.
@@ -84,7 +84,7 @@ vec3 polygon_solid_angle_peters_direction(PolygonSolidAnglePeters self, vec2 u) 
 }
 
 /// \param u in [0, 1)^2.
-LightSample polygon_solid_angle_peters_sample(PolygonSolidAnglePeters self, vec2 u) {
+LightSample polygon_solid_angle_peters_sample(const PolygonSolidAnglePeters self, vec2 u) {
     vec3 wi = polygon_solid_angle_peters_direction(self, u);
     return LightSample(wi, 1.0 / self.total, (self.plane_distance / dot(self.plane_normal, wi)) * wi);
 }

@@ -68,7 +68,7 @@ bool urena_is_left_of(vec3 begin, vec3 end, vec3 wi, float side) {
 }
 
 /// \param light in shading space, either winding [m].
-PolygonSubdivisionUrena polygon_subdivision_urena_prepare(ConvexPolygon light) {
+PolygonSubdivisionUrena polygon_subdivision_urena_prepare(const ConvexPolygon light) {
     PolygonSubdivisionUrena self;
     self.plane_normal = light.normal;
     self.plane_distance = dot(light.normal, light.vertex[0]);
@@ -90,9 +90,9 @@ PolygonSubdivisionUrena polygon_subdivision_urena_prepare(ConvexPolygon light) {
 }
 
 /// Projected solid angle of the part of the light above the horizon [sr].
-float polygon_subdivision_urena_measure(PolygonSubdivisionUrena self) { return self.total; }
+float polygon_subdivision_urena_measure(const PolygonSubdivisionUrena self) { return self.total; }
 
-UrenaSplit urena_split(UrenaNode node, float side) {
+UrenaSplit urena_split(const UrenaNode node, float side) {
     UrenaSplit s;
     s.ab = urena_unit(node.a + node.b);
     s.bc = urena_unit(node.b + node.c);
@@ -110,7 +110,7 @@ UrenaSplit urena_split(UrenaNode node, float side) {
 
 /// Goes down to corner a or the center, or to the right to corner b or c; the center and c are the upper ones.
 /// \param probability in: of the node; out: of the child.
-UrenaNode urena_child(UrenaNode node, UrenaSplit s, bool right, bool upper, inout float probability) {
+UrenaNode urena_child(const UrenaNode node, const UrenaSplit s, bool right, bool upper, inout float probability) {
     float chosen = right ? (upper ? s.corner_c : s.corner_b) : (upper ? s.center : s.corner_a);
     probability = probability * urena_over(chosen, (s.corner_a + s.center) + (s.corner_b + s.corner_c));
     if (right && upper) return UrenaNode(s.ca, s.bc, node.c, s.at_c, 0.5 * node.bc, 0.5 * node.ca);
@@ -200,9 +200,9 @@ vec3 urena_locate(PolygonSubdivisionUrena self, vec3 wi) {
 }
 
 /// \param wi a unit direction on the light.
-float polygon_subdivision_urena_pdf(PolygonSubdivisionUrena self, vec3 wi) { return urena_locate(self, wi).z; }
+float polygon_subdivision_urena_pdf(const PolygonSubdivisionUrena self, vec3 wi) { return urena_locate(self, wi).z; }
 
 /// The random numbers for which polygon_subdivision_urena_sample() returns wi, a unit direction on the light.
-vec2 polygon_subdivision_urena_invert(PolygonSubdivisionUrena self, vec3 wi) { return urena_locate(self, wi).xy; }
+vec2 polygon_subdivision_urena_invert(const PolygonSubdivisionUrena self, vec3 wi) { return urena_locate(self, wi).xy; }
 
 #endif

@@ -22,7 +22,7 @@ struct HartPolygonBase {
     float lowest; ///< bound on z of directions: 0 above the horizon, else the lowest number
 };
 
-LightSample hart_polygon_base_sample(HartPolygonBase self, vec2 x) {
+LightSample hart_polygon_base_sample(const HartPolygonBase self, vec2 x) {
     LightSample s = polygon_solid_angle_sample(self.technique, x);
     // Above the horizon in spite of rounding.
     if (s.wi.z < self.lowest) {
@@ -64,20 +64,20 @@ struct PolygonBilinearWarpHart {
 };
 
 /// \param light in shading space, either winding [m].
-PolygonBilinearWarpHart polygon_bilinear_warp_hart_prepare(ConvexPolygon light) {
+PolygonBilinearWarpHart polygon_bilinear_warp_hart_prepare(const ConvexPolygon light) {
     HartPolygonBase base = HartPolygonBase(polygon_solid_angle_prepare(light), -kNusseltLargest);
     return PolygonBilinearWarpHart(base, hart_bilinear_warp(hart_corner_cosines(light)));
 }
 
 /// Prepares the part of a light above the horizon.
 /// \param light in shading space, either winding [m].
-PolygonBilinearWarpHart polygon_clipped_bilinear_warp_hart_prepare(ConvexPolygon light) {
+PolygonBilinearWarpHart polygon_clipped_bilinear_warp_hart_prepare(const ConvexPolygon light) {
     HartPolygonBase base = HartPolygonBase(polygon_clipped_solid_angle_prepare(light), 0.0);
     return PolygonBilinearWarpHart(base, hart_bilinear_warp(hart_clipped_corner_cosines(light)));
 }
 
 /// \param u in [0, 1)^2, see polygon_solid_angle_sample().
-LightSample polygon_bilinear_warp_hart_sample(PolygonBilinearWarpHart self, vec2 u) {
+LightSample polygon_bilinear_warp_hart_sample(const PolygonBilinearWarpHart self, vec2 u) {
     vec2 x = hart_bilinear_warp_sample(self.warp, u);
     LightSample s = hart_polygon_base_sample(self.base, x);
     // The density of the base may be as large as any number.
@@ -86,18 +86,18 @@ LightSample polygon_bilinear_warp_hart_sample(PolygonBilinearWarpHart self, vec2
 }
 
 /// \param wi a unit direction on the light.
-float polygon_bilinear_warp_hart_pdf(PolygonBilinearWarpHart self, vec3 wi) {
+float polygon_bilinear_warp_hart_pdf(const PolygonBilinearWarpHart self, vec3 wi) {
     float density = hart_bilinear_warp_density(self.warp, polygon_solid_angle_invert(self.base.technique, wi));
     return nusselt_min(density * polygon_solid_angle_pdf(self.base.technique, wi), kNusseltLargest);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 polygon_bilinear_warp_hart_invert(PolygonBilinearWarpHart self, vec3 wi) {
+vec2 polygon_bilinear_warp_hart_invert(const PolygonBilinearWarpHart self, vec3 wi) {
     return hart_bilinear_warp_invert(self.warp, polygon_solid_angle_invert(self.base.technique, wi));
 }
 
 /// Solid angle of the light, or with clipping of its part above the horizon [sr].
-float polygon_bilinear_warp_hart_measure(PolygonBilinearWarpHart self) {
+float polygon_bilinear_warp_hart_measure(const PolygonBilinearWarpHart self) {
     return polygon_solid_angle_measure(self.base.technique);
 }
 
@@ -108,7 +108,8 @@ struct PolygonBiquadraticWarpHart {
 };
 
 /// \param corners cosines of the corners of the base.
-PolygonBiquadraticWarpHart polygon_biquadratic_warp_hart_prepare_base(HartPolygonBase base, FanCorners corners) {
+PolygonBiquadraticWarpHart polygon_biquadratic_warp_hart_prepare_base(const HartPolygonBase base,
+                                                                      const FanCorners corners) {
     // Random numbers do not reach one.
     float one = below_one(1.0);
     vec2 point[4] = vec2[4](vec2(0.0, 0.5), vec2(0.5, 0.5), vec2(one, 0.5), vec2(0.5, one));
@@ -119,20 +120,20 @@ PolygonBiquadraticWarpHart polygon_biquadratic_warp_hart_prepare_base(HartPolygo
 }
 
 /// \param light in shading space, either winding [m].
-PolygonBiquadraticWarpHart polygon_biquadratic_warp_hart_prepare(ConvexPolygon light) {
+PolygonBiquadraticWarpHart polygon_biquadratic_warp_hart_prepare(const ConvexPolygon light) {
     HartPolygonBase base = HartPolygonBase(polygon_solid_angle_prepare(light), -kNusseltLargest);
     return polygon_biquadratic_warp_hart_prepare_base(base, hart_corner_cosines(light));
 }
 
 /// Prepares the part of a light above the horizon.
 /// \param light in shading space, either winding [m].
-PolygonBiquadraticWarpHart polygon_clipped_biquadratic_warp_hart_prepare(ConvexPolygon light) {
+PolygonBiquadraticWarpHart polygon_clipped_biquadratic_warp_hart_prepare(const ConvexPolygon light) {
     HartPolygonBase base = HartPolygonBase(polygon_clipped_solid_angle_prepare(light), 0.0);
     return polygon_biquadratic_warp_hart_prepare_base(base, hart_clipped_corner_cosines(light));
 }
 
 /// \param u in [0, 1)^2, see polygon_solid_angle_sample().
-LightSample polygon_biquadratic_warp_hart_sample(PolygonBiquadraticWarpHart self, vec2 u) {
+LightSample polygon_biquadratic_warp_hart_sample(const PolygonBiquadraticWarpHart self, vec2 u) {
     vec2 x = hart_biquadratic_warp_sample(self.warp, u);
     LightSample s = hart_polygon_base_sample(self.base, x);
     // The density of the base may be as large as any number.
@@ -141,18 +142,18 @@ LightSample polygon_biquadratic_warp_hart_sample(PolygonBiquadraticWarpHart self
 }
 
 /// \param wi a unit direction on the light.
-float polygon_biquadratic_warp_hart_pdf(PolygonBiquadraticWarpHart self, vec3 wi) {
+float polygon_biquadratic_warp_hart_pdf(const PolygonBiquadraticWarpHart self, vec3 wi) {
     float density = hart_biquadratic_warp_density(self.warp, polygon_solid_angle_invert(self.base.technique, wi));
     return nusselt_min(density * polygon_solid_angle_pdf(self.base.technique, wi), kNusseltLargest);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 polygon_biquadratic_warp_hart_invert(PolygonBiquadraticWarpHart self, vec3 wi) {
+vec2 polygon_biquadratic_warp_hart_invert(const PolygonBiquadraticWarpHart self, vec3 wi) {
     return hart_biquadratic_warp_invert(self.warp, polygon_solid_angle_invert(self.base.technique, wi));
 }
 
 /// Solid angle of the light, or with clipping of its part above the horizon [sr].
-float polygon_biquadratic_warp_hart_measure(PolygonBiquadraticWarpHart self) {
+float polygon_biquadratic_warp_hart_measure(const PolygonBiquadraticWarpHart self) {
     return polygon_solid_angle_measure(self.base.technique);
 }
 

@@ -40,7 +40,7 @@ SphericalTriangleArvo make_spherical_triangle_arvo(vec3 a, vec3 b, vec3 c) {
 /// The direction up to whose arc the triangle has a solid angle.
 /// \param part solid angle [sr], from 0 to solid_angle.
 /// \param u in [0, 1), moves along the arc.
-vec3 spherical_triangle_arvo_direction(SphericalTriangleArvo self, float part, float u) {
+vec3 spherical_triangle_arvo_direction(const SphericalTriangleArvo self, float part, float u) {
     // Sine and cosine of part - alpha; the solid angle can exceed a half turn.
     SinCos half_part = peters_sincos_half_turn(0.5 * part);
     float sin_part = 2.0 * half_part.sine * half_part.cosine;
@@ -68,7 +68,7 @@ struct PlaceInTriangle {
 };
 
 /// \param side 1 or -1, the sign of the triple product of a, b and c.
-PlaceInTriangle spherical_triangle_arvo_place_of(SphericalTriangleArvo self, vec3 wi, float side) {
+PlaceInTriangle spherical_triangle_arvo_place_of(const SphericalTriangleArvo self, vec3 wi, float side) {
     // The plane of the arc meets that of the edge from a to c in a direction with these coordinates along a and the tangent.
     // Before a, a itself will do.
     vec3 n = side * peters_cross(wi, self.b);

@@ -160,7 +160,7 @@ AzimuthalSweep azimuthal_sweep_prepare(ConvexPolygon polygon, float distance) {
 
 /// Brings both chains to the azimuth of a vertex, where one of them continues with another edge. No edge begins at
 /// repeated vertices and at ends of edges with one azimuth.
-void sweep_pass(inout AzimuthalSweep self, SweepEvent at) {
+void sweep_pass(inout AzimuthalSweep self, const SweepEvent at) {
     if (at.kind == 0.0) return;
     bool outer_begins = at.kind > 0.0;
     vec3 from = outer_begins ? self.inner.at : self.outer.at;

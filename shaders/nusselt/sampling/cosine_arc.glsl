@@ -26,12 +26,12 @@ struct CosineArc {
 };
 
 /// The reciprocal of the integral; finite if it is 0.
-float cosine_arc_inverse_integral(CosineArc self) {
+float cosine_arc_inverse_integral(const CosineArc self) {
     return 1.0 / nusselt_max(self.integral, kNusseltSmallestNormal);
 }
 
 /// \param e above the horizon.
-CosineArc make_cosine_arc(LineExtent e) {
+CosineArc make_cosine_arc(const LineExtent e) {
     CosineArc self;
     self.map = make_line_map(e);
     self.distance = e.distance;
@@ -62,7 +62,7 @@ CosineArc make_cosine_arc(LineExtent e) {
 
 /// The integral from the middle to a point, see CosineIntegral.
 /// \param x as LinePoint.share.
-float cosine_arc_integral_to(CosineArc self, float x, float cosine, float height) {
+float cosine_arc_integral_to(const CosineArc self, float x, float cosine, float height) {
     float sine = nusselt_fma(x, self.map.sine_extent, -self.from_near);
     float half_tangent = sine / (self.middle_cosine + cosine);
     return nusselt_fma(sine, self.middle_height + height, self.n_t * angle_minus_sine(half_tangent));
@@ -71,14 +71,14 @@ float cosine_arc_integral_to(CosineArc self, float x, float cosine, float height
 /// By sine, the density is the cosine with the normal. Were that linear, the sample would solve a quadratic equation. Its
 /// slope is taken as a linear function of the integral instead of a constant.
 /// \returns the sine relative to the middle.
-float cosine_arc_first_guess(CosineArc self, float share, float target) {
+float cosine_arc_first_guess(const CosineArc self, float share, float target) {
     float change = share * nusselt_fma(share, self.guess_square, self.guess_linear);
     float squared = nusselt_max(nusselt_fma(self.middle_height, self.middle_height, change), 0.0);
     return target / (self.middle_height + sqrt(squared));
 }
 
 /// \param u in [0, 1); increasing u moves from the start to the end.
-LinePoint cosine_arc_point(CosineArc self, float u) {
+LinePoint cosine_arc_point(const CosineArc self, float u) {
     float share = nusselt_fma(u, self.share_scale, self.share_offset);
     float target = share * self.integral;
     float tolerance = 1.5 * kNusseltEpsilon * self.integral;
@@ -104,7 +104,7 @@ LinePoint cosine_arc_point(CosineArc self, float u) {
 }
 
 /// The random number for which cosine_arc_point() returns the one in direction wi, a unit direction on the arc.
-float cosine_arc_invert(CosineArc self, vec3 wi) {
+float cosine_arc_invert(const CosineArc self, vec3 wi) {
     float x = line_map_share_in(self.map, wi);
     float cosine = self.distance * line_map_point_at(self.map, x).inverse_distance;
     float part = cosine_arc_integral_to(self, x, cosine, nusselt_max(wi.z, 0.0));

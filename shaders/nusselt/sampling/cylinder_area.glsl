@@ -17,22 +17,24 @@ struct CylinderArea {
 };
 
 /// \param light relative to the shading point [m].
-CylinderArea cylinder_area_prepare(Cylinder light) { return CylinderArea(light, frame_from_normal(light.axis.s)); }
+CylinderArea cylinder_area_prepare(const Cylinder light) {
+    return CylinderArea(light, frame_from_normal(light.axis.s));
+}
 
 /// Area of the lateral surface and the caps [m^2], no more than the largest number.
-float cylinder_area_measure(CylinderArea self) {
+float cylinder_area_measure(const CylinderArea self) {
     float area = 2.0 * kNusseltPi * self.light.radius * (self.light.axis.len + self.light.radius);
     return nusselt_min(area, kNusseltLargest);
 }
 
 /// \param cosine between the ray, backwards, and the normal of the light.
-float cylinder_area_density(CylinderArea self, float distance, float cosine) {
+float cylinder_area_density(const CylinderArea self, float distance, float cosine) {
     return area_density(distance, cylinder_area_measure(self) * cosine);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves from the middle of the cap at the start over
 ///          the lateral surface to the middle of the other cap.
-LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
+LightSample cylinder_area_sample(const CylinderArea self, vec2 u) {
     LineSegment axis = self.light.axis;
     float radius = self.light.radius;
     // Along the profile, in units of the circumference, a cap counts half its radius.
@@ -57,13 +59,13 @@ LightSample cylinder_area_sample(CylinderArea self, vec2 u) {
 }
 
 /// \param wi a unit direction towards the light.
-float cylinder_area_pdf(CylinderArea self, vec3 wi) {
+float cylinder_area_pdf(const CylinderArea self, vec3 wi) {
     LightHit hit = intersect(self.light, wi);
     return hit.hits ? cylinder_area_density(self, hit.distance, hit.cosine) : 0.0;
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_area_invert(CylinderArea self, vec3 wi) {
+vec2 cylinder_area_invert(const CylinderArea self, vec3 wi) {
     LineSegment axis = self.light.axis;
     float radius = self.light.radius;
     float distance = intersect(self.light, wi).distance;

@@ -26,23 +26,23 @@ const float kNusseltSteepest = 68719476736.0; // 2^36
 const int kNusseltUniformImportance = 0;
 const int kNusseltCosineImportance = 1;
 
-LineExtent importance_extent(int importance, CenteredLine line) {
+LineExtent importance_extent(int importance, const CenteredLine line) {
     if (importance == kNusseltUniformImportance) return make_line_extent(line);
     return make_line_extent(clip_to_horizon(line));
 }
 
 /// Twice the integral over the solid angle, per azimuth.
-float importance_integral(int importance, LineExtent e) {
+float importance_integral(int importance, const LineExtent e) {
     return importance == kNusseltUniformImportance ? 2.0 * line_extent_sine_extent(e).difference : cosine_integral(e);
 }
 
-LinePoint importance_point(int importance, LineExtent e, float u) {
+LinePoint importance_point(int importance, const LineExtent e, float u) {
     if (importance == kNusseltUniformImportance)
         return line_map_point_at(make_line_map(e), e.line.sign_of_s > 0.0 ? u : 1.0 - u);
     return cosine_arc_point(make_cosine_arc(e), u);
 }
 
-float importance_invert(int importance, LineExtent e, vec3 wi) {
+float importance_invert(int importance, const LineExtent e, vec3 wi) {
     if (importance == kNusseltUniformImportance) {
         float share = line_map_share_in(make_line_map(e), wi);
         return below_one(e.line.sign_of_s > 0.0 ? share : 1.0 - share);
@@ -54,7 +54,7 @@ float importance_invert(int importance, LineExtent e, vec3 wi) {
 Ltc shading_space() { return Ltc(1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0); }
 
 /// The normal of the horizon in shading space: directions with a positive product have importance.
-vec3 ltc_horizon_normal(Ltc self) {
+vec3 ltc_horizon_normal(const Ltc self) {
     return vec3(ltc_to_cosine(self, vec3(1.0, 0.0, 0.0)).z, ltc_to_cosine(self, vec3(0.0, 1.0, 0.0)).z,
                 ltc_to_cosine(self, vec3(0.0, 0.0, 1.0)).z);
 }
@@ -69,7 +69,7 @@ struct CylinderImage {
     float height_of_m, height_of_n, start_height, end_height;
 };
 
-CylinderImage make_cylinder_image(Cylinder cylinder, Ltc space) {
+CylinderImage make_cylinder_image(const Cylinder cylinder, const Ltc space) {
     CylinderImage self;
     self.view = make_cylinder_view(cylinder, ltc_horizon_normal(space));
     vec3 s = ltc_to_cosine(space, self.view.s);
@@ -95,18 +95,18 @@ CylinderImage make_cylinder_image(Cylinder cylinder, Ltc space) {
 }
 
 /// The image of a half-plane direction, in the basis m, n.
-vec2 cylinder_image_of(CylinderImage self, vec2 azimuth) {
+vec2 cylinder_image_of(const CylinderImage self, vec2 azimuth) {
     return vec2(nusselt_fma(azimuth.x, self.m_along_m, azimuth.y * self.n_along_m), azimuth.y * self.n_along_n);
 }
 
 /// Azimuth of the image, in [-pi, pi].
 /// \param azimuth of any length.
-float cylinder_image_angle_of(CylinderImage self, vec2 azimuth) {
+float cylinder_image_angle_of(const CylinderImage self, vec2 azimuth) {
     vec2 image = cylinder_image_of(self, azimuth);
     return copysign(atan2_positive(abs(image.y), image.x), image.y);
 }
 
-vec2 cylinder_image_azimuth_at(CylinderImage self, float angle) {
+vec2 cylinder_image_azimuth_at(const CylinderImage self, float angle) {
     SinCos turn = sincos_half_turn(nusselt_min(abs(angle), kNusseltPi));
     float sine = copysign(abs(turn.sine), angle);
     float x = difference_of_products(self.n_along_n, turn.cosine, self.n_along_m, sine);
@@ -114,7 +114,7 @@ vec2 cylinder_image_azimuth_at(CylinderImage self, float angle) {
 }
 
 /// Image height of the unit vector across a half-plane, towards larger azimuths.
-float cylinder_image_height_to_the_left_of(CylinderImage self, vec2 azimuth) {
+float cylinder_image_height_to_the_left_of(const CylinderImage self, vec2 azimuth) {
     return nusselt_fma(azimuth.x, self.height_of_n, -azimuth.y * self.height_of_m);
 }
 
@@ -127,7 +127,7 @@ struct AzimuthRange {
 /// \param height of the middle of the rim.
 /// \param rise   of the rim above its middle.
 /// \param up     where it is highest.
-void include_rim(CylinderImage self, float height, float rise, vec2 up, inout float low, inout float high) {
+void include_rim(const CylinderImage self, float height, float rise, vec2 up, inout float low, inout float high) {
     if (!(abs(height) < rise)) return;
     float upwards = -height / rise;
     float sideways = sqrt(nusselt_max((1.0 - upwards) * (1.0 + upwards), 0.0));
@@ -141,7 +141,7 @@ void include_rim(CylinderImage self, float height, float rise, vec2 up, inout fl
 
 /// The azimuths of the part of the cylinder that has importance. They are bounded by half-planes that touch the
 /// cylinder, if these reach above the horizon, or else by points of the rims in the horizon.
-AzimuthRange cylinder_image_range(CylinderImage self, int importance) {
+AzimuthRange cylinder_image_range(const CylinderImage self, int importance) {
     CylinderView view = self.view;
     vec2 left = view.touching;
     vec2 right = vec2(left.x, -left.y);
@@ -180,7 +180,7 @@ struct CylinderHalfPlane {
 };
 
 /// Tangent of the direction to a corner (l, rho) of the rectangle in the image of its half-plane.
-float cylinder_image_tangent(CylinderImage self, float l, float rho, float widening, float shear) {
+float cylinder_image_tangent(const CylinderImage self, float l, float rho, float widening, float shear) {
     // rho may be 0.
     float slope = abs(l) < rho / kNusseltTiny ? l / rho : copysign(1.0 / kNusseltTiny, l);
     float tangent = nusselt_fma(self.stretch, slope, shear) / widening;
@@ -191,13 +191,13 @@ float cylinder_image_tangent(CylinderImage self, float l, float rho, float widen
 /// \param t        direction of the image of the half-plane.
 /// \param height   of the corner of the cylinder.
 /// \param distance of the image of that corner from the axis; may be 0 where the tangent is steepest.
-vec3 cylinder_image_corner(CylinderImage self, vec3 t, float tangent, float height, float distance) {
+vec3 cylinder_image_corner(const CylinderImage self, vec3 t, float tangent, float height, float distance) {
     vec3 p = tangent * self.s + t;
     if (abs(tangent) < kNusseltSteepest) p.z = height / distance;
     return p;
 }
 
-CylinderHalfPlane cylinder_half_plane(CylinderImage self, int importance, vec2 direction) {
+CylinderHalfPlane cylinder_half_plane(const CylinderImage self, int importance, vec2 direction) {
     CylinderView view = self.view;
     CylinderHalfPlane h;
     // Integrals start like a square root where half-planes touch the cylinder, which would magnify rounding.
@@ -250,7 +250,7 @@ struct CylinderFan {
 /// \param importance of directions, one of the constants above.
 /// \param cylinder   in shading space, with coordinates of order one.
 /// \param space      where directions have the importance: shading_space(), or the cosine space of a lobe.
-CylinderFan make_cylinder_fan(int importance, Cylinder cylinder, Ltc space) {
+CylinderFan make_cylinder_fan(int importance, const Cylinder cylinder, const Ltc space) {
     CylinderFan self;
     self.importance = importance;
     self.image = make_cylinder_image(cylinder, space);
@@ -277,20 +277,20 @@ CylinderFan make_cylinder_fan(int importance, Cylinder cylinder, Ltc space) {
 }
 
 /// Position in the range of azimuths, in [0, 1].
-float cylinder_fan_share_of(CylinderFan self, vec2 azimuth) {
+float cylinder_fan_share_of(const CylinderFan self, vec2 azimuth) {
     float from_low = cylinder_image_angle_of(self.image, azimuth) - self.range.low;
     float safe_extent = self.range.extent > 0.0 ? self.range.extent : 1.0;
     return nusselt_min(nusselt_max(from_low / safe_extent, 0.0), 1.0);
 }
 
 /// The half-plane for a random number in [0, 1).
-CylinderHalfPlane cylinder_fan_half_plane(CylinderFan self, float u) {
+CylinderHalfPlane cylinder_fan_half_plane(const CylinderFan self, float u) {
     float angle = nusselt_fma(piecewise_linear_invert(self.warp, u), self.range.extent, self.range.low);
     return cylinder_half_plane(self.image, self.importance, cylinder_image_azimuth_at(self.image, angle));
 }
 
 /// The point of the cylinder in a half-plane for a random number in [0, 1), which rises along the axis.
-vec3 cylinder_fan_point_in(CylinderFan self, CylinderHalfPlane h, float u) {
+vec3 cylinder_fan_point_in(const CylinderFan self, const CylinderHalfPlane h, float u) {
     LinePoint point = importance_point(self.importance, h.extent, u);
     float sine = h.extent.line.sign_of_s * line_map_sine_at(make_line_map(h.extent), point.share);
     float mapped = sine / nusselt_max(point.inverse_distance, 1.0 / kNusseltSteepest);
@@ -303,13 +303,13 @@ vec3 cylinder_fan_point_in(CylinderFan self, CylinderHalfPlane h, float u) {
 
 /// The point of the cylinder for random numbers in [0, 1)^2: u.x chooses the half-plane, u.y the direction in it, rising
 /// along the axis. Without meaning if the integral is 0.
-vec3 cylinder_fan_point(CylinderFan self, vec2 u) {
+vec3 cylinder_fan_point(const CylinderFan self, vec2 u) {
     return cylinder_fan_point_in(self, cylinder_fan_half_plane(self, u.x), u.y);
 }
 
 /// Density with respect to solid angle in the space of the importance, over the importance [1/sr].
 /// \param wi unit direction in shading space that hits the cylinder.
-float cylinder_fan_density_per_importance(CylinderFan self, vec3 wi) {
+float cylinder_fan_density_per_importance(const CylinderFan self, vec3 wi) {
     vec2 azimuth = cylinder_view_azimuth_of(self.image.view, wi);
     CylinderHalfPlane h = cylinder_half_plane(self.image, self.importance, azimuth);
     if (!(h.integral > 0.0)) return 0.0;
@@ -321,7 +321,7 @@ float cylinder_fan_density_per_importance(CylinderFan self, vec3 wi) {
 
 /// The random numbers for which cylinder_fan_point() lies in direction wi.
 /// \param image_of_wi in the space of the importance, of any length.
-vec2 cylinder_fan_invert(CylinderFan self, vec3 wi, vec3 image_of_wi) {
+vec2 cylinder_fan_invert(const CylinderFan self, vec3 wi, vec3 image_of_wi) {
     vec2 azimuth = cylinder_view_azimuth_of(self.image.view, wi);
     CylinderHalfPlane h = cylinder_half_plane(self.image, self.importance, azimuth);
     float below = piecewise_linear_below(self.warp, cylinder_fan_share_of(self, h.slice.azimuth));

@@ -21,7 +21,7 @@ struct CylinderLtc {
 };
 
 /// \param light in shading space [m].
-CylinderLtc cylinder_ltc_prepare(Cylinder light, Ltc ltc) {
+CylinderLtc cylinder_ltc_prepare(const Cylinder light, const Ltc ltc) {
     float scale = scale_of(light);
     return CylinderLtc(ltc, make_cylinder_fan(kNusseltCosineImportance, scaled(light, scale), ltc),
                        reciprocal_power_of_two(scale));
@@ -29,23 +29,23 @@ CylinderLtc cylinder_ltc_prepare(Cylinder light, Ltc ltc) {
 
 /// Estimate of the integral of the lobe over the light: good enough for weights of multiple importance sampling, not for
 /// shading.
-float cylinder_ltc_measure(CylinderLtc self) { return (1.0 / kNusseltPi) * self.fan.integral; }
+float cylinder_ltc_measure(const CylinderLtc self) { return (1.0 / kNusseltPi) * self.fan.integral; }
 
 /// \param wi a unit direction towards the light.
-float cylinder_ltc_pdf(CylinderLtc self, vec3 wi) {
+float cylinder_ltc_pdf(const CylinderLtc self, vec3 wi) {
     float density = kNusseltPi * ltc_density(self.ltc, wi) * cylinder_fan_density_per_importance(self.fan, wi);
     return is_finite(density) ? density : 0.0;
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
-LightSample cylinder_ltc_sample(CylinderLtc self, vec2 u) {
+LightSample cylinder_ltc_sample(const CylinderLtc self, vec2 u) {
     vec3 p = cylinder_fan_point(self.fan, u);
     vec3 wi = self.fan.integral > 0.0 ? inverse_length(p) * p : vec3(0.0, 0.0, 1.0);
     return LightSample(wi, cylinder_ltc_pdf(self, wi), self.inverse_scale * p);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_ltc_invert(CylinderLtc self, vec3 wi) {
+vec2 cylinder_ltc_invert(const CylinderLtc self, vec3 wi) {
     return cylinder_fan_invert(self.fan, wi, ltc_to_cosine(self.ltc, wi));
 }
 

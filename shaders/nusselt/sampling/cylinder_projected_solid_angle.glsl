@@ -19,7 +19,7 @@ struct CylinderProjectedSolidAngle {
 };
 
 /// \param light in shading space [m].
-CylinderProjectedSolidAngle cylinder_projected_solid_angle_prepare(Cylinder light) {
+CylinderProjectedSolidAngle cylinder_projected_solid_angle_prepare(const Cylinder light) {
     float scale = scale_of(light);
     return CylinderProjectedSolidAngle(
         make_cylinder_fan(kNusseltCosineImportance, scaled(light, scale), shading_space()),
@@ -28,15 +28,15 @@ CylinderProjectedSolidAngle cylinder_projected_solid_angle_prepare(Cylinder ligh
 
 /// Estimate of the projected solid angle of the part of the light above the horizon [sr]: good enough for weights of
 /// multiple importance sampling, not for shading.
-float cylinder_projected_solid_angle_measure(CylinderProjectedSolidAngle self) { return self.fan.integral; }
+float cylinder_projected_solid_angle_measure(const CylinderProjectedSolidAngle self) { return self.fan.integral; }
 
 /// \param wi a unit direction towards the light.
-float cylinder_projected_solid_angle_pdf(CylinderProjectedSolidAngle self, vec3 wi) {
+float cylinder_projected_solid_angle_pdf(const CylinderProjectedSolidAngle self, vec3 wi) {
     return nusselt_max(wi.z, 0.0) * cylinder_fan_density_per_importance(self.fan, wi);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
-LightSample cylinder_projected_solid_angle_sample(CylinderProjectedSolidAngle self, vec2 u) {
+LightSample cylinder_projected_solid_angle_sample(const CylinderProjectedSolidAngle self, vec2 u) {
     vec3 p = cylinder_fan_point(self.fan, u);
     vec3 wi = self.fan.integral > 0.0 ? inverse_length(p) * p : vec3(0.0, 0.0, 1.0);
     wi.z = nusselt_max(wi.z, 0.0);
@@ -44,7 +44,7 @@ LightSample cylinder_projected_solid_angle_sample(CylinderProjectedSolidAngle se
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_projected_solid_angle_invert(CylinderProjectedSolidAngle self, vec3 wi) {
+vec2 cylinder_projected_solid_angle_invert(const CylinderProjectedSolidAngle self, vec3 wi) {
     return cylinder_fan_invert(self.fan, wi, wi);
 }
 

@@ -18,7 +18,7 @@ struct CylinderSolidAngle {
 };
 
 /// \param light relative to the shading point [m].
-CylinderSolidAngle cylinder_solid_angle_prepare(Cylinder light) {
+CylinderSolidAngle cylinder_solid_angle_prepare(const Cylinder light) {
     float scale = scale_of(light);
     return CylinderSolidAngle(make_cylinder_fan(kNusseltUniformImportance, scaled(light, scale), shading_space()),
                               reciprocal_power_of_two(scale));
@@ -26,21 +26,23 @@ CylinderSolidAngle cylinder_solid_angle_prepare(Cylinder light) {
 
 /// Estimate of the solid angle of the light [sr]: good enough for weights of multiple importance sampling, not for
 /// shading.
-float cylinder_solid_angle_measure(CylinderSolidAngle self) { return self.fan.integral; }
+float cylinder_solid_angle_measure(const CylinderSolidAngle self) { return self.fan.integral; }
 
 /// \param wi a unit direction towards the light.
-float cylinder_solid_angle_pdf(CylinderSolidAngle self, vec3 wi) {
+float cylinder_solid_angle_pdf(const CylinderSolidAngle self, vec3 wi) {
     return cylinder_fan_density_per_importance(self.fan, wi);
 }
 
 /// \param u in [0, 1)^2; u.x turns around the axis, increasing u.y moves along it. Continuous in both.
-LightSample cylinder_solid_angle_sample(CylinderSolidAngle self, vec2 u) {
+LightSample cylinder_solid_angle_sample(const CylinderSolidAngle self, vec2 u) {
     vec3 p = cylinder_fan_point(self.fan, u);
     vec3 wi = self.fan.integral > 0.0 ? inverse_length(p) * p : vec3(0.0, 0.0, 1.0);
     return LightSample(wi, cylinder_solid_angle_pdf(self, wi), self.inverse_scale * p);
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 cylinder_solid_angle_invert(CylinderSolidAngle self, vec3 wi) { return cylinder_fan_invert(self.fan, wi, wi); }
+vec2 cylinder_solid_angle_invert(const CylinderSolidAngle self, vec3 wi) {
+    return cylinder_fan_invert(self.fan, wi, wi);
+}
 
 #endif

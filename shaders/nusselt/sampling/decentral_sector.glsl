@@ -29,7 +29,7 @@ struct DecentralForms {
     float rise;  ///< form of the inner ellipse minus that, >= 0
 };
 
-DecentralForms decentral_sector_at(DecentralSector self, float x) {
+DecentralForms decentral_sector_at(const DecentralSector self, float x) {
     vec3 outer_point = self.begin + x * self.chord;
     float gap = nusselt_fma(x, self.end_gap - self.begin_gap, self.begin_gap);
     return DecentralForms(outer_point, gap, dot(outer_point, outer_point),
@@ -54,7 +54,7 @@ struct DecentralPlanes {
     float squared_step;                 ///< their difference
 };
 
-DecentralPlanes decentral_sector_planes(DecentralSector self) {
+DecentralPlanes decentral_sector_planes(const DecentralSector self) {
     vec3 begin = self.begin;
     vec3 chord = self.chord;
     float turn = self.end_gap - self.begin_gap;
@@ -66,7 +66,7 @@ DecentralPlanes decentral_sector_planes(DecentralSector self) {
                            dot(lift, outer_normal.xy + inner_normal.xy));
 }
 
-DecentralArcs decentral_sector_arcs_to(DecentralSector self, DecentralPlanes planes, float x) {
+DecentralArcs decentral_sector_arcs_to(const DecentralSector self, const DecentralPlanes planes, float x) {
     float outer_cosine = dot(self.begin, self.begin + x * self.chord);
     float gap = nusselt_fma(x, self.end_gap - self.begin_gap, self.begin_gap);
     float rise = nusselt_fma(self.begin_gap, nusselt_fma(x, self.chord.z, self.begin.z) + gap, self.begin.z * gap);
@@ -76,13 +76,13 @@ DecentralArcs decentral_sector_arcs_to(DecentralSector self, DecentralPlanes pla
 }
 
 /// Whether both angles are at most an eighth of a turn.
-bool decentral_arcs_are_narrow(DecentralArcs arcs) {
+bool decentral_arcs_are_narrow(const DecentralArcs arcs) {
     return arcs.outer_cosine > 0.0 && arcs.outer_sine2 <= arcs.outer_cosine * arcs.outer_cosine &&
            arcs.inner_sine2 <= arcs.inner_cosine * arcs.inner_cosine;
 }
 
 /// Twice the area between narrow arcs: angle / sine = (1 - k) / cosine with k of the order of the squared angle.
-float decentral_narrow_doubled_area(DecentralArcs arcs) {
+float decentral_narrow_doubled_area(const DecentralArcs arcs) {
     float inverse_product = 1.0 / (arcs.outer_cosine * arcs.inner_cosine);
     float outer_inverse = inverse_product * arcs.inner_cosine;
     float inner_inverse = inverse_product * arcs.outer_cosine;
@@ -103,7 +103,7 @@ struct DecentralWideArcs {
     float step_sine, step_cosine; ///< of the inner angle minus the outer one
 };
 
-DecentralWideArcs decentral_wide_arcs(DecentralArcs arcs) {
+DecentralWideArcs decentral_wide_arcs(const DecentralArcs arcs) {
     float outer_sine = sqrt(arcs.outer_sine2);
     float inner_sine = sqrt(arcs.inner_sine2);
     float sum = inner_sine + outer_sine;
@@ -116,7 +116,7 @@ DecentralWideArcs decentral_wide_arcs(DecentralArcs arcs) {
 /// Twice the area between wide arcs.
 /// \param inner_angle of the inner arc.
 /// \param step_angle  inner angle minus the outer one, without its sign.
-float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, float step_angle) {
+float decentral_wide_doubled_area(const DecentralWideArcs arcs, float inner_angle, float step_angle) {
     if (!(arcs.outer_sine > 0.0 && arcs.inner_sine > 0.0)) return 0.0;
     float difference = nusselt_fma(copysign(step_angle, arcs.step_sine), arcs.inner_sine, inner_angle * arcs.more) /
                        (arcs.outer_sine * arcs.inner_sine);
@@ -125,7 +125,7 @@ float decentral_wide_doubled_area(DecentralWideArcs arcs, float inner_angle, flo
 
 /// Twice the area from the start to x (Prop. 1 for both ellipses). Each ellipse contributes the determinant of its end
 /// points times angle / sine; the determinants are equal.
-float decentral_sector_doubled_area_to(DecentralSector self, DecentralPlanes planes, float x) {
+float decentral_sector_doubled_area_to(const DecentralSector self, const DecentralPlanes planes, float x) {
     DecentralArcs arcs = decentral_sector_arcs_to(self, planes, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
@@ -134,7 +134,7 @@ float decentral_sector_doubled_area_to(DecentralSector self, DecentralPlanes pla
 }
 
 /// The same with atan2_positive_fast().
-float decentral_sector_fast_doubled_area_to(DecentralSector self, DecentralPlanes planes, float x) {
+float decentral_sector_fast_doubled_area_to(const DecentralSector self, const DecentralPlanes planes, float x) {
     DecentralArcs arcs = decentral_sector_arcs_to(self, planes, x);
     if (decentral_arcs_are_narrow(arcs)) return decentral_narrow_doubled_area(arcs);
     DecentralWideArcs wide = decentral_wide_arcs(arcs);
@@ -154,7 +154,7 @@ float root_near_zero(float a, float b, float c) {
 /// Samples two quads that approximate the sector (Sec. 3.4): each lies between the chords of both ellipses from one
 /// end of the range to its middle.
 /// \param fraction of the area that shall lie before the result.
-float decentral_sector_initial_position(DecentralSector self, float fraction) {
+float decentral_sector_initial_position(const DecentralSector self, float fraction) {
     // The direction to the middle is the sum of the unit directions to both ends.
     vec3 end = self.begin + self.chord;
     float r0 = sqrt(nusselt_fma(self.begin.x, self.begin.x, self.begin.y * self.begin.y));
@@ -198,7 +198,7 @@ float decentral_sector_initial_position(DecentralSector self, float fraction) {
 
 /// One step of the iteration (Sec. 3.3): replaces both ellipses by their tangents at x. The error is cubed.
 /// \param missing twice the area that shall lie between x and the result.
-float decentral_sector_step(DecentralSector self, float x, float missing) {
+float decentral_sector_step(const DecentralSector self, float x, float missing) {
     DecentralForms f = decentral_sector_at(self, x);
     float turn = self.end_gap - self.begin_gap;
     float inner = f.outer + f.rise;
@@ -214,7 +214,7 @@ float decentral_sector_step(DecentralSector self, float x, float missing) {
 /// The position before which the given area lies.
 /// \param target        twice that area, in [0, doubled_total].
 /// \param doubled_total twice the area of the sector, > 0.
-float decentral_sector_position(DecentralSector self, float target, float doubled_total) {
+float decentral_sector_position(const DecentralSector self, float target, float doubled_total) {
     float fraction = target / (doubled_total > 0.0 ? doubled_total : 1.0);
     float x = decentral_sector_initial_position(self, nusselt_min(fraction, 1.0));
     // Rounding of the areas; nothing is gained below.
@@ -242,7 +242,7 @@ struct AzimuthOnEdge {
 /// \param normal, distance of the plane of the polygon.
 /// \param divisor if the vertex belongs to the outer edges, minus the determinant of start and end of the edge in the
 ///                 tangent plane; else the slope.
-float azimuth_on_edge_gap(AzimuthOnEdge self, vec3 normal, float distance, float divisor) {
+float azimuth_on_edge_gap(const AzimuthOnEdge self, vec3 normal, float distance, float divisor) {
     float upright = (normal.z * normal.z) * dot(self.vertex, self.vertex);
     float level = dot(normal.xy, self.vertex);
     bool is_flat = upright >= level * level;

@@ -18,19 +18,21 @@ struct LineArea {
 };
 
 /// \param light relative to the shading point [m].
-LineArea line_area_prepare(LineSegment light) {
+LineArea line_area_prepare(const LineSegment light) {
     return LineArea(light, nusselt_length(nusselt_cross(light.p0, light.s)));
 }
 
 /// Length of the light [m].
-float line_area_measure(LineArea self) { return self.light.len; }
+float line_area_measure(const LineArea self) { return self.light.len; }
 
 /// \param r    distance of the point.
 /// \param sine of the angle between wi and the line.
-float line_area_density(LineArea self, float r, float sine) { return area_density(r, 2.0 * self.light.len * sine); }
+float line_area_density(const LineArea self, float r, float sine) {
+    return area_density(r, 2.0 * self.light.len * sine);
+}
 
 /// \param u in [0, 1), proportional to the distance from the start.
-LightSample line_area_sample(LineArea self, float u) {
+LightSample line_area_sample(const LineArea self, float u) {
     vec3 p = self.light.p0 + (u * self.light.len) * self.light.s;
     float r = nusselt_length(p);
     // |wi x s| = distance / r; from wi it would lose its precision where the light is seen end-on.
@@ -38,13 +40,13 @@ LightSample line_area_sample(LineArea self, float u) {
 }
 
 /// \param wi a unit direction towards the light.
-float line_area_pdf(LineArea self, vec3 wi) {
+float line_area_pdf(const LineArea self, vec3 wi) {
     float sine = nusselt_length(nusselt_cross(wi, self.light.s));
     return line_area_density(self, self.distance / (sine > 0.0 ? sine : 1.0), sine);
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_area_invert(LineArea self, vec3 wi) {
+float line_area_invert(const LineArea self, vec3 wi) {
     float start = dot(self.light.p0, self.light.s);
     float along = dot(wi, self.light.s);
     float sine = nusselt_length(nusselt_cross(wi, self.light.s));

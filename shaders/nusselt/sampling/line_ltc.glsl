@@ -33,13 +33,13 @@ struct LineLtc {
     float inverse_measure; ///< 0 without light
 };
 
-LineProjectedSolidAngle line_ltc_image(LineLtc self) {
+LineProjectedSolidAngle line_ltc_image(const LineLtc self) {
     return LineProjectedSolidAngle(self.image_arc, self.image_inverse_scale, self.image_measure, self.image_inverse_measure);
 }
 
 /// \param part  the part of the light that counts, scaled.
 /// \param scale by which it is larger than the light.
-LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
+LineLtc line_ltc_prepare_part(const LineSegment part, float scale, const Ltc ltc) {
     LineLtc self;
     self.lowest = -kNusseltLargest;
     self.ltc = ltc;
@@ -67,13 +67,13 @@ LineLtc line_ltc_prepare_part(LineSegment part, float scale, Ltc ltc) {
 }
 
 /// \param light in shading space [m].
-LineLtc line_ltc_prepare(LineSegment light, Ltc ltc) {
+LineLtc line_ltc_prepare(const LineSegment light, const Ltc ltc) {
     float scale = scale_of(light);
     return line_ltc_prepare_part(scaled(light, scale), scale, ltc);
 }
 
 /// Prepares the part of a light above the surface: samples are never below it.
-LineLtc line_clipped_ltc_prepare(LineSegment light, Ltc ltc) {
+LineLtc line_clipped_ltc_prepare(const LineSegment light, const Ltc ltc) {
     float scale = scale_of(light);
     LineLtc self = line_ltc_prepare_part(part_above_horizon(scaled(light, scale)), scale, ltc);
     self.lowest = 0.0;
@@ -81,16 +81,16 @@ LineLtc line_clipped_ltc_prepare(LineSegment light, Ltc ltc) {
 }
 
 /// Integral of the lobe over the light per radius [1/m].
-float line_ltc_measure(LineLtc self) { return self.measure; }
+float line_ltc_measure(const LineLtc self) { return self.measure; }
 
 /// \param wi a unit direction towards the light.
-float line_ltc_pdf(LineLtc self, vec3 wi) {
+float line_ltc_pdf(const LineLtc self, vec3 wi) {
     float density = ltc_density(self.ltc, wi) * self.inverse_measure;
     return is_finite(density) ? density : 0.0;
 }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_ltc_sample(LineLtc self, float u) {
+LightSample line_ltc_sample(const LineLtc self, float u) {
     // Only the coordinate along the light comes from cosine space: rounding there must not leave the light.
     vec3 image = line_projected_solid_angle_sample(line_ltc_image(self), u).p;
     float along = dot(ltc_to_shading(self.ltc, image), self.s) / self.ltc.minor;
@@ -101,7 +101,7 @@ LightSample line_ltc_sample(LineLtc self, float u) {
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_ltc_invert(LineLtc self, vec3 wi) {
+float line_ltc_invert(const LineLtc self, vec3 wi) {
     return line_projected_solid_angle_invert(line_ltc_image(self), nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
 }
 

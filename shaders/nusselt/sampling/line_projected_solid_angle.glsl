@@ -23,7 +23,7 @@ struct LineProjectedSolidAngle {
 };
 
 /// \param light in shading space [m].
-LineProjectedSolidAngle line_projected_solid_angle_prepare(LineSegment light) {
+LineProjectedSolidAngle line_projected_solid_angle_prepare(const LineSegment light) {
     LineProjectedSolidAngle self;
     float scale = scale_of(light);
     self.inverse_scale = reciprocal_power_of_two(scale);
@@ -39,15 +39,15 @@ LineProjectedSolidAngle line_projected_solid_angle_prepare(LineSegment light) {
 }
 
 /// Projected solid angle per radius of the part of the light above the horizon [sr/m].
-float line_projected_solid_angle_measure(LineProjectedSolidAngle self) { return self.measure; }
+float line_projected_solid_angle_measure(const LineProjectedSolidAngle self) { return self.measure; }
 
 /// \param wi a unit direction towards the light.
-float line_projected_solid_angle_pdf(LineProjectedSolidAngle self, vec3 wi) {
+float line_projected_solid_angle_pdf(const LineProjectedSolidAngle self, vec3 wi) {
     return nusselt_max(wi.z, 0.0) * self.inverse_measure;
 }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, float u) {
+LightSample line_projected_solid_angle_sample(const LineProjectedSolidAngle self, float u) {
     LinePoint point = cosine_arc_point(self.arc, u);
     vec3 p = line_map_position(self.arc.map, point);
     vec3 wi = line_map_direction(self.arc.map, point, p);
@@ -56,7 +56,7 @@ LightSample line_projected_solid_angle_sample(LineProjectedSolidAngle self, floa
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_projected_solid_angle_invert(LineProjectedSolidAngle self, vec3 wi) {
+float line_projected_solid_angle_invert(const LineProjectedSolidAngle self, vec3 wi) {
     return cosine_arc_invert(self.arc, wi);
 }
 

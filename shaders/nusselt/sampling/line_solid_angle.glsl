@@ -24,7 +24,7 @@ struct LineSolidAngle {
 };
 
 /// \param scale by which the extent is larger than the light.
-LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
+LineSolidAngle line_solid_angle_prepare_extent(float scale, const LineExtent extent) {
     LineSolidAngle self;
     self.map = make_line_map(extent);
     self.sign_of_s = extent.line.sign_of_s;
@@ -44,14 +44,14 @@ LineSolidAngle line_solid_angle_prepare_extent(float scale, LineExtent extent) {
 }
 
 /// \param light relative to the shading point [m]. Nothing is clipped.
-LineSolidAngle line_solid_angle_prepare(LineSegment light) {
+LineSolidAngle line_solid_angle_prepare(const LineSegment light) {
     float scale = scale_of(light);
     return line_solid_angle_prepare_extent(scale, whole_extent(scaled(light, scale)));
 }
 
 /// Prepares the part of a light above the horizon: wi.z is never negative.
 /// \param light in shading space [m].
-LineSolidAngle line_clipped_solid_angle_prepare(LineSegment light) {
+LineSolidAngle line_clipped_solid_angle_prepare(const LineSegment light) {
     float scale = scale_of(light);
     LineSolidAngle self = line_solid_angle_prepare_extent(scale, clipped_extent(scaled(light, scale)));
     self.lowest = 0.0;
@@ -59,13 +59,13 @@ LineSolidAngle line_clipped_solid_angle_prepare(LineSegment light) {
 }
 
 /// Solid angle per radius, in the limit of a thin cylinder [sr/m].
-float line_solid_angle_measure(LineSolidAngle self) { return self.measure; }
+float line_solid_angle_measure(const LineSolidAngle self) { return self.measure; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float line_solid_angle_pdf(LineSolidAngle self, vec3 wi) { return self.pdf; }
+float line_solid_angle_pdf(const LineSolidAngle self, vec3 wi) { return self.pdf; }
 
 /// \param u in [0, 1); increasing u moves from the start of the light to its end.
-LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
+LightSample line_solid_angle_sample(const LineSolidAngle self, float u) {
     LinePoint point = line_map_point_at(self.map, nusselt_fma(u, self.sign_of_s, self.offset));
     vec3 p = line_map_position(self.map, point);
     vec3 wi = line_map_direction(self.map, point, p);
@@ -75,7 +75,7 @@ LightSample line_solid_angle_sample(LineSolidAngle self, float u) {
 }
 
 /// The random number for which the sample is wi, a unit direction on the light.
-float line_solid_angle_invert(LineSolidAngle self, vec3 wi) {
+float line_solid_angle_invert(const LineSolidAngle self, vec3 wi) {
     return below_one((line_map_share_in(self.map, wi) - self.offset) * self.sign_of_s);
 }
 

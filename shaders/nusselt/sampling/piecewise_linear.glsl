@@ -47,7 +47,7 @@ PiecewiseLinearSegment piecewise_linear_segment(PiecewiseLinear self, int i) {
 }
 
 /// The segment that x in [0, 1] is in.
-PiecewiseLinearSegment piecewise_linear_segment_at(PiecewiseLinear self, float x) {
+PiecewiseLinearSegment piecewise_linear_segment_at(const PiecewiseLinear self, float x) {
     PiecewiseLinearSegment s = piecewise_linear_segment(self, 0);
     NUSSELT_UNROLL for (int i = 1; i < kNusseltNodes - 1; ++i) {
         if (x >= piecewise_linear_node(i)) s = piecewise_linear_segment(self, i);
@@ -71,13 +71,13 @@ float piecewise_linear_invert(PiecewiseLinear self, float u) {
 }
 
 /// \param x in [0, 1]
-float piecewise_linear_value(PiecewiseLinear self, float x) {
+float piecewise_linear_value(const PiecewiseLinear self, float x) {
     PiecewiseLinearSegment s = piecewise_linear_segment_at(self, x);
     return nusselt_fma((x - s.begin) / s.width, s.right - s.left, s.left);
 }
 
 /// The integral from 0 to x in [0, 1].
-float piecewise_linear_below(PiecewiseLinear self, float x) {
+float piecewise_linear_below(const PiecewiseLinear self, float x) {
     PiecewiseLinearSegment s = piecewise_linear_segment_at(self, x);
     float share = (x - s.begin) / s.width;
     return nusselt_fma(s.width * share, nusselt_fma(0.5 * share, s.right - s.left, s.left), s.below);

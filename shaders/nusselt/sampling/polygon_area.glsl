@@ -41,10 +41,10 @@ PolygonArea polygon_area_prepare(ConvexPolygon light) {
 }
 
 /// Area of the light [m^2].
-float polygon_area_measure(PolygonArea self) { return 0.5 * self.doubled_total; }
+float polygon_area_measure(const PolygonArea self) { return 0.5 * self.doubled_total; }
 
 /// \param distance of the point that is sampled.
-float polygon_area_density(PolygonArea self, vec3 wi, float distance) {
+float polygon_area_density(const PolygonArea self, vec3 wi, float distance) {
     float projected = polygon_area_measure(self) * abs(dot(self.plane.normal, wi));
     return self.plane.distance != 0.0 ? area_density(distance, projected) : 0.0;
 }
@@ -74,7 +74,7 @@ LightSample polygon_area_sample(PolygonArea self, vec2 u) {
 }
 
 /// \param wi a unit direction towards the light.
-float polygon_area_pdf(PolygonArea self, vec3 wi) {
+float polygon_area_pdf(const PolygonArea self, vec3 wi) {
     return polygon_area_density(self, wi, light_plane_distance_along(self.plane, wi));
 }
 

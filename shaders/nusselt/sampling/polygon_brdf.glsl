@@ -25,7 +25,7 @@ struct PolygonBrdf {
 
 /// \param light in shading space, either winding [m].
 /// \param lobe  by ggx_visible_normals_prepare() or ggx_bounded_visible_normals_prepare().
-PolygonBrdf polygon_brdf_prepare(ConvexPolygon light, GgxVisibleNormals lobe) {
+PolygonBrdf polygon_brdf_prepare(const ConvexPolygon light, const GgxVisibleNormals lobe) {
     PolygonBrdf self;
     self.lobe = lobe;
     PolygonPart whole = whole_part(light);
@@ -45,13 +45,13 @@ bool polygon_brdf_is_towards_light(PolygonBrdf self, vec3 wi) {
 }
 
 /// \param wi a unit direction towards the light.
-float polygon_brdf_pdf(PolygonBrdf self, vec3 wi) {
+float polygon_brdf_pdf(const PolygonBrdf self, vec3 wi) {
     return self.present ? ggx_visible_normals_pdf(self.lobe, wi) : 0.0;
 }
 
 /// \param u in [0, 1)^2, as for the lobe.
 /// \returns pdf = 0 where the direction misses the light.
-LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
+LightSample polygon_brdf_sample(const PolygonBrdf self, vec2 u) {
     vec3 wi = ggx_visible_normals_sample(self.lobe, u);
     float density = polygon_brdf_is_towards_light(self, wi) ? polygon_brdf_pdf(self, wi) : 0.0;
     vec3 p = light_plane_distance_along(polygon_hull_plane(self.hull), wi) * wi;
@@ -59,6 +59,6 @@ LightSample polygon_brdf_sample(PolygonBrdf self, vec2 u) {
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light.
-vec2 polygon_brdf_invert(PolygonBrdf self, vec3 wi) { return ggx_visible_normals_invert(self.lobe, wi); }
+vec2 polygon_brdf_invert(const PolygonBrdf self, vec3 wi) { return ggx_visible_normals_invert(self.lobe, wi); }
 
 #endif

@@ -11,7 +11,7 @@
 #include "../sampling/polygon_solid_angle.glsl"
 
 /// \param light in shading space, either winding [m].
-PolygonSolidAngle polygon_clipped_solid_angle_prepare(ConvexPolygon light) {
+PolygonSolidAngle polygon_clipped_solid_angle_prepare(const ConvexPolygon light) {
     PolygonPart part = part_above_horizon(light);
     // New vertices are rounded. Whether the plane contains the origin is a question to the whole light. How far away it is
     // goes by the vertices of the part: the errors of the terms of the solid angle then cancel.
@@ -20,7 +20,7 @@ PolygonSolidAngle polygon_clipped_solid_angle_prepare(ConvexPolygon light) {
 }
 
 /// \param u in [0, 1)^2, see polygon_solid_angle_sample().
-LightSample polygon_clipped_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
+LightSample polygon_clipped_solid_angle_sample(const PolygonSolidAngle self, vec2 u) {
     LightSample s = polygon_solid_angle_sample(self, u);
     // Above the horizon in spite of rounding.
     if (s.wi.z < 0.0) {
@@ -32,14 +32,16 @@ LightSample polygon_clipped_solid_angle_sample(PolygonSolidAngle self, vec2 u) {
 }
 
 /// Constant on the light; the caller knows that wi hits it.
-float polygon_clipped_solid_angle_pdf(PolygonSolidAngle self, vec3 wi) { return polygon_solid_angle_pdf(self, wi); }
+float polygon_clipped_solid_angle_pdf(const PolygonSolidAngle self, vec3 wi) {
+    return polygon_solid_angle_pdf(self, wi);
+}
 
 /// The random numbers for which the sample is wi, a unit direction on the light; (0, 0) at vertex 0.
-vec2 polygon_clipped_solid_angle_invert(PolygonSolidAngle self, vec3 wi) {
+vec2 polygon_clipped_solid_angle_invert(const PolygonSolidAngle self, vec3 wi) {
     return polygon_solid_angle_invert(self, wi);
 }
 
 /// Solid angle of the part above the horizon [sr].
-float polygon_clipped_solid_angle_measure(PolygonSolidAngle self) { return polygon_solid_angle_measure(self); }
+float polygon_clipped_solid_angle_measure(const PolygonSolidAngle self) { return polygon_solid_angle_measure(self); }
 
 #endif

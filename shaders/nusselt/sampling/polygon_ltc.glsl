@@ -30,7 +30,7 @@ struct PolygonLtc {
 
 /// \param part  the part of the light that counts.
 /// \param image of that part in cosine space.
-PolygonLtc polygon_ltc_prepare_image(PolygonPart part, Ltc ltc, PolygonProjectedSolidAngle image) {
+PolygonLtc polygon_ltc_prepare_image(const PolygonPart part, const Ltc ltc, const PolygonProjectedSolidAngle image) {
     PolygonLtc self;
     self.ltc = ltc;
     self.image = image;
@@ -46,35 +46,35 @@ PolygonLtc polygon_ltc_prepare_image(PolygonPart part, Ltc ltc, PolygonProjected
 }
 
 /// \param part the part of the light that counts.
-PolygonLtc polygon_ltc_prepare_part(PolygonPart part, Ltc ltc) {
+PolygonLtc polygon_ltc_prepare_part(const PolygonPart part, const Ltc ltc) {
     return polygon_ltc_prepare_image(part, ltc,
                                      polygon_projected_solid_angle_prepare(to_cosine_space(part.polygon, ltc)));
 }
 
 /// \param light in shading space, either winding [m].
-PolygonLtc polygon_ltc_prepare(ConvexPolygon light, Ltc ltc) {
+PolygonLtc polygon_ltc_prepare(const ConvexPolygon light, const Ltc ltc) {
     return polygon_ltc_prepare_part(whole_part(light), ltc);
 }
 
 /// Prepares the part of a light above the surface: samples are never below it.
 /// \param light of at most NUSSELT_MAX_VERTICES - 1 vertices, since it is clipped twice.
-PolygonLtc polygon_clipped_ltc_prepare(ConvexPolygon light, Ltc ltc) {
+PolygonLtc polygon_clipped_ltc_prepare(const ConvexPolygon light, const Ltc ltc) {
     PolygonLtc self = polygon_ltc_prepare_part(part_above_horizon(light), ltc);
     self.lowest = 0.0;
     return self;
 }
 
 /// Integral of the lobe over the light, in [0, 1].
-float polygon_ltc_measure(PolygonLtc self) { return self.measure; }
+float polygon_ltc_measure(const PolygonLtc self) { return self.measure; }
 
 /// \param wi a unit direction towards the light.
-float polygon_ltc_pdf(PolygonLtc self, vec3 wi) {
+float polygon_ltc_pdf(const PolygonLtc self, vec3 wi) {
     float density = ltc_density(self.ltc, wi) * self.inverse_measure;
     return is_finite(density) ? density : 0.0;
 }
 
 /// \param sampled of the image, in cosine space.
-LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
+LightSample polygon_ltc_sample_image(const PolygonLtc self, const LightSample sampled) {
     vec3 direction = ltc_to_shading(self.ltc, sampled.wi);
     direction.z = nusselt_max(direction.z, self.lowest);
     direction = nusselt_normalize(direction);
@@ -107,13 +107,13 @@ LightSample polygon_ltc_sample_image(PolygonLtc self, LightSample sampled) {
 }
 
 /// \param u in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_sample().
-LightSample polygon_ltc_sample(PolygonLtc self, vec2 u) {
+LightSample polygon_ltc_sample(const PolygonLtc self, vec2 u) {
     return polygon_ltc_sample_image(self, polygon_projected_solid_angle_sample(self.image, u));
 }
 
 /// The random numbers for which the sample is wi, a unit direction on the light. See
 /// polygon_projected_solid_angle_invert().
-vec2 polygon_ltc_invert(PolygonLtc self, vec3 wi) {
+vec2 polygon_ltc_invert(const PolygonLtc self, vec3 wi) {
     return polygon_projected_solid_angle_invert(self.image, nusselt_normalize(ltc_to_cosine(self.ltc, wi)));
 }
 

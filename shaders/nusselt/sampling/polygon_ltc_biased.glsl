@@ -9,7 +9,7 @@
 #include "../sampling/polygon_projected_solid_angle_biased.glsl"
 
 /// \param light in shading space, either winding [m].
-PolygonLtc polygon_ltc_biased_prepare(ConvexPolygon light, Ltc ltc) {
+PolygonLtc polygon_ltc_biased_prepare(const ConvexPolygon light, const Ltc ltc) {
     PolygonPart part = whole_part(light);
     return polygon_ltc_prepare_image(
         part, ltc, polygon_projected_solid_angle_biased_prepare(to_cosine_space(part.polygon, ltc)).approximate);
@@ -17,7 +17,7 @@ PolygonLtc polygon_ltc_biased_prepare(ConvexPolygon light, Ltc ltc) {
 
 /// \param self by polygon_ltc_biased_prepare().
 /// \param u    in [0, 1)^2; as continuous as that of polygon_projected_solid_angle_biased_sample().
-LightSample polygon_ltc_biased_sample(PolygonLtc self, vec2 u) {
+LightSample polygon_ltc_biased_sample(const PolygonLtc self, vec2 u) {
     PolygonProjectedSolidAngleBiased image = PolygonProjectedSolidAngleBiased(self.image);
     return polygon_ltc_sample_image(self, polygon_projected_solid_angle_biased_sample(image, u));
 }

@@ -85,7 +85,8 @@ CentralArc central_arc(vec3 v, vec3 next, vec3 edge) {
 }
 
 /// All of sector k but its area, in the central case.
-CentralArc polygon_projected_solid_angle_put_edge(inout PolygonProjectedSolidAngle self, int k, ConvexPolygon polygon) {
+CentralArc polygon_projected_solid_angle_put_edge(inout PolygonProjectedSolidAngle self, int k,
+                                                  ConvexPolygon polygon) {
     vec3 next = polygon.vertex[k + 1 < kNusseltSlots ? k + 1 : 0];
     CentralArc arc = central_arc(polygon.vertex[k], next, polygon.edge[k]);
     self.begin[k] = polygon.vertex[k];
@@ -96,7 +97,7 @@ CentralArc polygon_projected_solid_angle_put_edge(inout PolygonProjectedSolidAng
 
 /// Sector k in the decentral case.
 /// \param doubled twice its area.
-void polygon_projected_solid_angle_put(inout PolygonProjectedSolidAngle self, int k, DecentralSector sector,
+void polygon_projected_solid_angle_put(inout PolygonProjectedSolidAngle self, int k, const DecentralSector sector,
                                        float doubled) {
     self.begin[k] = sector.begin;
     self.chord[k] = sector.chord;
@@ -105,7 +106,7 @@ void polygon_projected_solid_angle_put(inout PolygonProjectedSolidAngle self, in
     self.doubled_area[k] = is_finite(doubled) ? doubled : 0.0;
 }
 
-void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAngle self, ConvexPolygon polygon) {
+void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAngle self, const ConvexPolygon polygon) {
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
         CentralArc arc = polygon_projected_solid_angle_put_edge(self, k, polygon);
         if (arc.present) self.doubled_area[k] = arc.height * atan2_positive(arc.sine, arc.cosine) / arc.sine;
@@ -113,7 +114,8 @@ void polygon_projected_solid_angle_prepare_central(inout PolygonProjectedSolidAn
 }
 
 /// Each part of an azimuth between two vertices has a sector.
-void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolidAngle self, ConvexPolygon polygon) {
+void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolidAngle self,
+                                                     const ConvexPolygon polygon) {
     AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
@@ -126,7 +128,7 @@ void polygon_projected_solid_angle_prepare_decentral(inout PolygonProjectedSolid
 /// All but the sectors.
 /// \param light   in shading space, either winding [m].
 /// \param polygon the part above the horizon, mirrored and with coordinates of order one.
-PolygonProjectedSolidAngle polygon_projected_solid_angle_begin(ConvexPolygon light, out ConvexPolygon polygon) {
+PolygonProjectedSolidAngle polygon_projected_solid_angle_begin(const ConvexPolygon light, out ConvexPolygon polygon) {
     PolygonProjectedSolidAngle self;
     polygon = with_unit_extent(light);
     self.inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
@@ -169,7 +171,7 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_end(PolygonProjectedSol
 }
 
 /// \param light in shading space, either winding [m].
-PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon light) {
+PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(const ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
     if (self.hull.distance != 0.0) {
@@ -183,10 +185,10 @@ PolygonProjectedSolidAngle polygon_projected_solid_angle_prepare(ConvexPolygon l
 }
 
 /// Projected solid angle of the part of the light above the horizon [sr].
-float polygon_projected_solid_angle_measure(PolygonProjectedSolidAngle self) { return 0.5 * self.doubled_total; }
+float polygon_projected_solid_angle_measure(const PolygonProjectedSolidAngle self) { return 0.5 * self.doubled_total; }
 
 /// \param wi a unit direction towards the light.
-float polygon_projected_solid_angle_pdf(PolygonProjectedSolidAngle self, vec3 wi) {
+float polygon_projected_solid_angle_pdf(const PolygonProjectedSolidAngle self, vec3 wi) {
     float density = wi.z * self.inverse_measure;
     return wi.z > 0.0 && is_finite(density) ? density : 0.0;
 }
@@ -226,7 +228,8 @@ ProjectedSectorSelection polygon_projected_solid_angle_select(PolygonProjectedSo
 }
 
 /// Sec. 3.2 in three dimensions: equal areas between the zenith and the edge are equal angles on its circle.
-LightSample polygon_projected_solid_angle_sample_central(LightPlane plane, ProjectedSectorSelection s, float u) {
+LightSample polygon_projected_solid_angle_sample_central(const LightPlane plane, const ProjectedSectorSelection s,
+                                                         float u) {
     vec3 n = nusselt_cross(s.sector.begin, s.sector.chord);
     vec3 a = inverse_length(s.sector.begin) * s.sector.begin;
     vec3 t = inverse_length(n) * cross(n, a); // orthogonal: nothing cancels
@@ -238,7 +241,8 @@ LightSample polygon_projected_solid_angle_sample_central(LightPlane plane, Proje
 }
 
 /// \param x position of the azimuth on the chord of the sector.
-LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, DecentralSector sector, float x, float u) {
+LightSample polygon_projected_solid_angle_sample_decentral(const LightPlane plane, const DecentralSector sector,
+                                                           float x, float u) {
     DecentralForms forms = decentral_sector_at(sector, x);
     // The squared radius is uniform between the ellipses: the reciprocal of the form is. The form of the circle through
     // the sample gives its height above the outer point, in the same azimuth.
@@ -260,7 +264,7 @@ LightSample polygon_projected_solid_angle_sample_decentral(LightPlane plane, Dec
 }
 
 /// Takes scaled and mirrored coordinates back to those of the light.
-LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self, LightSample s) {
+LightSample polygon_projected_solid_angle_finish(const PolygonProjectedSolidAngle self, LightSample s) {
     s.p = self.inverse_scale * polygon_hull_moved_to_plane(self.hull, s.p);
     s.wi = self.inverse_measure > 0.0 ? s.wi : vec3(0.0, 0.0, 1.0);
     s.wi.y = self.mirror * s.wi.y;
@@ -270,7 +274,8 @@ LightSample polygon_projected_solid_angle_finish(PolygonProjectedSolidAngle self
 }
 
 /// \param x position of the azimuth on the chord of the sector; decentral case only.
-LightSample polygon_projected_solid_angle_sample_at(PolygonProjectedSolidAngle self, ProjectedSectorSelection s,
+LightSample polygon_projected_solid_angle_sample_at(const PolygonProjectedSolidAngle self,
+                                                    const ProjectedSectorSelection s,
                                                     float x, float u) {
     LightSample result;
     if (self.central) {
@@ -283,7 +288,7 @@ LightSample polygon_projected_solid_angle_sample_at(PolygonProjectedSolidAngle s
 
 /// \param u in [0, 1)^2; x selects the azimuth, y the inclination. Continuous, up to the cyclic start in the central
 ///          case, so that stratification survives.
-LightSample polygon_projected_solid_angle_sample(PolygonProjectedSolidAngle self, vec2 u) {
+LightSample polygon_projected_solid_angle_sample(const PolygonProjectedSolidAngle self, vec2 u) {
     ProjectedSectorSelection s = polygon_projected_solid_angle_select(self, u.x);
     float x = 0.0;
     if (!self.central) x = decentral_sector_position(s.sector, s.rest, s.doubled_area);
@@ -292,7 +297,7 @@ LightSample polygon_projected_solid_angle_sample(PolygonProjectedSolidAngle self
 
 /// Where between the inner ellipse (0; the zenith in the central case) and the outer one (1) a direction with the
 /// projection w and height z above x lies, in squared radii.
-float relative_height_in_sector(bool central, DecentralSector sector, float x, vec2 w, float z) {
+float relative_height_in_sector(bool central, const DecentralSector sector, float x, vec2 w, float z) {
     DecentralForms forms = decentral_sector_at(sector, x);
     float across = dot(forms.outer_point.xy, forms.outer_point.xy);
     float radius = sqrt(dot(w, w));
@@ -346,19 +351,20 @@ ProjectedSectorPosition polygon_projected_solid_angle_locate(PolygonProjectedSol
 
 /// Twice the area of a central sector from its start to x.
 /// \param angle of that part on the great circle.
-float central_sector_doubled_area(ProjectedSectorPosition at, float angle) {
+float central_sector_doubled_area(const ProjectedSectorPosition at, float angle) {
     return angle / (at.angle_per_area > 0.0 ? at.angle_per_area : 1.0);
 }
 
 /// Sine and cosine, not normalised, of the angle on the great circle of a central sector from its start to x.
-SinCos central_sector_angle(ProjectedSectorPosition at) {
+SinCos central_sector_angle(const ProjectedSectorPosition at) {
     vec3 n = at.x * nusselt_cross(at.sector.begin, at.sector.chord);
     return SinCos(sqrt(dot(n, n)), dot(at.sector.begin, at.sector.begin + at.x * at.sector.chord));
 }
 
 /// \param partial_area twice the area of the sector from its start to x.
 /// \param w, z         the direction in the tangent plane, mirrored, and its height.
-vec2 polygon_projected_solid_angle_random_numbers(PolygonProjectedSolidAngle self, ProjectedSectorPosition at,
+vec2 polygon_projected_solid_angle_random_numbers(const PolygonProjectedSolidAngle self,
+                                                  const ProjectedSectorPosition at,
                                                   float partial_area, vec2 w, float z) {
     float area_before = at.before + nusselt_min(partial_area, at.doubled_area);
     float height = relative_height_in_sector(self.central, at.sector, at.x, w, z);
@@ -367,7 +373,7 @@ vec2 polygon_projected_solid_angle_random_numbers(PolygonProjectedSolidAngle sel
 
 /// The random numbers for which the sample is wi, a unit direction on the light. At the zenith, and where a light is so
 /// thin that its width is lost to rounding, the component without meaning is 0.
-vec2 polygon_projected_solid_angle_invert(PolygonProjectedSolidAngle self, vec3 wi) {
+vec2 polygon_projected_solid_angle_invert(const PolygonProjectedSolidAngle self, vec3 wi) {
     vec2 w = vec2(wi.x, self.mirror * wi.y);
     ProjectedSectorPosition at = polygon_projected_solid_angle_locate(self, w);
     float partial_area;

@@ -16,7 +16,7 @@ struct PolygonProjectedSolidAngleBiased {
 };
 
 void polygon_projected_solid_angle_biased_prepare_central(inout PolygonProjectedSolidAngle self,
-                                                          ConvexPolygon polygon) {
+                                                          const ConvexPolygon polygon) {
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots; ++k) {
         CentralArc arc = polygon_projected_solid_angle_put_edge(self, k, polygon);
         if (arc.present) self.doubled_area[k] = arc.height * atan2_positive_fast(arc.sine, arc.cosine) / arc.sine;
@@ -24,7 +24,7 @@ void polygon_projected_solid_angle_biased_prepare_central(inout PolygonProjected
 }
 
 void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProjectedSolidAngle self,
-                                                            ConvexPolygon polygon) {
+                                                            const ConvexPolygon polygon) {
     AzimuthalSweep sweep = azimuthal_sweep_prepare(polygon, self.hull.distance);
     NUSSELT_UNROLL for (int k = 0; k < kNusseltSlots - 1; ++k) {
         DecentralSector sector;
@@ -36,7 +36,7 @@ void polygon_projected_solid_angle_biased_prepare_decentral(inout PolygonProject
 }
 
 /// \param light in shading space, either winding [m].
-PolygonProjectedSolidAngleBiased polygon_projected_solid_angle_biased_prepare(ConvexPolygon light) {
+PolygonProjectedSolidAngleBiased polygon_projected_solid_angle_biased_prepare(const ConvexPolygon light) {
     ConvexPolygon polygon;
     PolygonProjectedSolidAngle self = polygon_projected_solid_angle_begin(light, polygon);
     if (self.hull.distance != 0.0) {
@@ -50,17 +50,17 @@ PolygonProjectedSolidAngleBiased polygon_projected_solid_angle_biased_prepare(Co
 }
 
 /// Projected solid angle of the part of the light above the horizon [sr].
-float polygon_projected_solid_angle_biased_measure(PolygonProjectedSolidAngleBiased self) {
+float polygon_projected_solid_angle_biased_measure(const PolygonProjectedSolidAngleBiased self) {
     return polygon_projected_solid_angle_measure(self.approximate);
 }
 
 /// \param wi a unit direction towards the light.
-float polygon_projected_solid_angle_biased_pdf(PolygonProjectedSolidAngleBiased self, vec3 wi) {
+float polygon_projected_solid_angle_biased_pdf(const PolygonProjectedSolidAngleBiased self, vec3 wi) {
     return polygon_projected_solid_angle_pdf(self.approximate, wi);
 }
 
 /// \param u in [0, 1)^2; x selects the azimuth, y the inclination.
-LightSample polygon_projected_solid_angle_biased_sample(PolygonProjectedSolidAngleBiased self, vec2 u) {
+LightSample polygon_projected_solid_angle_biased_sample(const PolygonProjectedSolidAngleBiased self, vec2 u) {
     ProjectedSectorSelection s = polygon_projected_solid_angle_select(self.approximate, u.x);
     float x = 0.0;
     if (!self.approximate.central) {
@@ -72,7 +72,7 @@ LightSample polygon_projected_solid_angle_biased_sample(PolygonProjectedSolidAng
 
 /// The random numbers for which exact sampling would give wi, a unit direction on the light, up to the error of the
 /// arctangents.
-vec2 polygon_projected_solid_angle_biased_invert(PolygonProjectedSolidAngleBiased self, vec3 wi) {
+vec2 polygon_projected_solid_angle_biased_invert(const PolygonProjectedSolidAngleBiased self, vec3 wi) {
     vec2 w = vec2(wi.x, self.approximate.mirror * wi.y);
     ProjectedSectorPosition at = polygon_projected_solid_angle_locate(self.approximate, w);
     float partial_area;

@@ -44,12 +44,15 @@ struct PolygonSolidAngle {
     bool counterclockwise; ///< winding as seen along a ray from the origin through the polygon
 };
 
-vec3 polygon_solid_angle_direction(PolygonSolidAngle self, int j) { return self.inverse_distance[j] * self.vertex[j]; }
+vec3 polygon_solid_angle_direction(PolygonSolidAngle self, int j) {
+    return self.inverse_distance[j] * self.vertex[j];
+}
 
 /// \param polygon          in a unit of order one or in metres.
 /// \param inverse_distance of its vertices.
 /// \param inverse_scale    from the unit to metres.
-PolygonSolidAngle polygon_solid_angle_prepare_volumes(ConvexPolygon polygon, float inverse_distance[kNusseltSlots],
+PolygonSolidAngle polygon_solid_angle_prepare_volumes(const ConvexPolygon polygon,
+                                                      float inverse_distance[kNusseltSlots],
                                                       float inverse_scale, FanVolumes volumes) {
     PolygonSolidAngle self;
     self.vertex = polygon.vertex;
@@ -152,10 +155,10 @@ PolygonSolidAngle polygon_solid_angle_prepare(ConvexPolygon light) {
 }
 
 /// Solid angle of the light [sr].
-float polygon_solid_angle_measure(PolygonSolidAngle self) { return self.total; }
+float polygon_solid_angle_measure(const PolygonSolidAngle self) { return self.total; }
 
 /// Constant on the light; the caller knows that wi hits it.
-float polygon_solid_angle_pdf(PolygonSolidAngle self, vec3 wi) { return self.inverse_total; }
+float polygon_solid_angle_pdf(const PolygonSolidAngle self, vec3 wi) { return self.inverse_total; }
 
 /// The largest distance of a vertex [m].
 float polygon_solid_angle_reach(PolygonSolidAngle self) {
@@ -182,7 +185,8 @@ struct WideCircle {
 };
 
 /// \param angle half of the solid angle of the triangle (a, c, v).
-WideCircle polygon_solid_angle_wide_circle(PolygonSolidAngle self, SolidAngleTriangle t, SinCos angle) {
+WideCircle polygon_solid_angle_wide_circle(const PolygonSolidAngle self, const SolidAngleTriangle t,
+                                           const SinCos angle) {
     vec3 a = t.inverse_a * t.pa;
     vec3 n = (t.inverse_a * t.inverse_b) * nusselt_cross(t.pa, t.pb);
     float squared = dot(n, n);
@@ -202,7 +206,7 @@ WideCircle polygon_solid_angle_wide_circle(PolygonSolidAngle self, SolidAngleTri
 
 /// A unit direction on the circle.
 /// \param drop, rest one minus and one plus the cosine of its angle with c.
-vec3 wide_circle_direction(WideCircle self, float drop, float rest, vec3 c) {
+vec3 wide_circle_direction(const WideCircle self, float drop, float rest, vec3 c) {
     float rise = sqrt(nusselt_max(drop * rest, 0.0));
     vec3 wi = (1.0 - drop) * c + (rise * inverse_length(self.tangent)) * self.tangent;
     return inverse_length(wi) * wi;
@@ -210,7 +214,8 @@ vec3 wide_circle_direction(WideCircle self, float drop, float rest, vec3 c) {
 
 /// Distance of the plane of a triangle along a unit direction [m]; the largest number if rounding relative to the reach of
 /// the light would move that point by more: if the triangle is a sliver, or its plane is seen too flat.
-float polygon_solid_angle_distance_along(PolygonSolidAngle self, vec3 wi, SolidAngleTriangle t, float reach) {
+float polygon_solid_angle_distance_along(const PolygonSolidAngle self, vec3 wi, const SolidAngleTriangle t,
+                                         float reach) {
     vec3 to_a = t.pa - self.vertex[0];
     vec3 to_b = t.pb - self.vertex[0];
     vec3 normal = nusselt_cross(to_a, to_b);

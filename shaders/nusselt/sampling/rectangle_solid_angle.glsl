@@ -78,7 +78,7 @@ float rectangle_solid_angle_between(float x0, float x1, float width, float y0, f
 
 /// Solid angle of the strip between the lines of the upper and the lower edge beyond x >= 0: a spherical triangle, with the
 /// point at infinity as its third vertex.
-float rectangle_strip(RectangleSolidAngle self, float x) {
+float rectangle_strip(const RectangleSolidAngle self, float x) {
     float squared = nusselt_fma(x, x, self.plane * self.plane);
     RectangleChord chord = rectangle_chord(squared, self.y0, self.y1, self.height);
     float radii = chord.r0 * chord.r1;
@@ -91,7 +91,7 @@ float rectangle_strip(RectangleSolidAngle self, float x) {
 
 /// \param light relative to the shading point, either winding [m]. A rectangle up to rounding; other polygons give samples
 ///              that miss the light.
-RectangleSolidAngle rectangle_solid_angle_prepare(ConvexPolygon light) {
+RectangleSolidAngle rectangle_solid_angle_prepare(const ConvexPolygon light) {
     RectangleSolidAngle self;
     self.inverse_scale = reciprocal_power_of_two(unit_extent_scale(light));
     ConvexPolygon unit = with_unit_extent(light);
@@ -148,7 +148,7 @@ float rectangle_sine(float angle, float supplement) {
 }
 
 /// \param u in [0, 1)^2; u.x moves along the first edge of the light, u.y across it. Continuous in both.
-LightSample rectangle_solid_angle_sample(RectangleSolidAngle self, vec2 u) {
+LightSample rectangle_solid_angle_sample(const RectangleSolidAngle self, vec2 u) {
     // Of the strip between the lines of the upper and the lower edge, p is the solid angle to the left of x and q that to
     // the right of it. Their halves sum up to the angle between the planes of the lines.
     float p = 0.5 * nusselt_fma(u.x, self.total, self.left);
@@ -183,10 +183,10 @@ LightSample rectangle_solid_angle_sample(RectangleSolidAngle self, vec2 u) {
 }
 
 /// Constant on the light; the caller knows that wi hits it.
-float rectangle_solid_angle_pdf(RectangleSolidAngle self, vec3 wi) { return self.inverse_total; }
+float rectangle_solid_angle_pdf(const RectangleSolidAngle self, vec3 wi) { return self.inverse_total; }
 
 /// The random numbers for which rectangle_solid_angle_sample() returns wi, a unit direction on the light.
-vec2 rectangle_solid_angle_invert(RectangleSolidAngle self, vec3 wi) {
+vec2 rectangle_solid_angle_invert(const RectangleSolidAngle self, vec3 wi) {
     float ahead = dot(wi, self.z_axis);
     float along = self.plane / (ahead > 0.0 ? ahead : 1.0);
     float x = nusselt_min(nusselt_max(along * dot(wi, self.x_axis), self.x0), self.x1);
@@ -203,6 +203,6 @@ vec2 rectangle_solid_angle_invert(RectangleSolidAngle self, vec3 wi) {
 }
 
 /// Solid angle of the light [sr].
-float rectangle_solid_angle_measure(RectangleSolidAngle self) { return self.total; }
+float rectangle_solid_angle_measure(const RectangleSolidAngle self) { return self.total; }
 
 #endif

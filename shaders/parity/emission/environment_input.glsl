@@ -19,7 +19,7 @@ Frame input_frame(uint begin) {
 vec2 input_random(uint begin) { return vec2(input_at(begin + 10u), input_at(begin + 11u)); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_environment(TexturedSample s, EnvironmentCells cells, float pdf, vec2 inverse, float measure) {
+void write_environment(const TexturedSample s, const EnvironmentCells cells, float pdf, vec2 inverse, float measure) {
     write_vec3(0, s.p);
     results[3] = s.pdf;
     results[4] = s.at.x;

@@ -12,7 +12,7 @@ struct AlongLine {
     float measure;
 };
 
-void write_along(vec3 wi, float pdf, AlongLine along) {
+void write_along(vec3 wi, float pdf, const AlongLine along) {
     write_vec3(0, wi);
     results[3] = pdf;
     results[4] = below_one(along.at);

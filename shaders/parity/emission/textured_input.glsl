@@ -13,8 +13,8 @@ uint input_light(uint begin) { return uint(input_at(begin + 12u)); }
 vec2 input_random(uint begin) { return vec2(input_at(begin + 13u), input_at(begin + 14u)); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_textured(TexturedSample s, TexturedCells cells, TexturePlane plane, float pdf, vec2 inverse,
-                    float measure) {
+void write_textured(const TexturedSample s, const TexturedCells cells, const TexturePlane plane, float pdf,
+                    vec2 inverse, float measure) {
     write_vec3(0, s.wi);
     results[3] = s.pdf;
     results[4] = s.at.x;

@@ -15,7 +15,7 @@ WindowPlane input_plane(uint begin) {
 vec2 input_random(uint begin) { return vec2(input_at(begin + 13u), input_at(begin + 14u)); }
 
 // The layout of nusselt::parity::EmissionOutputs.
-void write_windowed(TexturedSample s, WindowedCells cells, WindowPlane plane, float pdf, vec2 inverse,
+void write_windowed(const TexturedSample s, const WindowedCells cells, const WindowPlane plane, float pdf, vec2 inverse,
                     float measure) {
     float along = dot(plane.frame.n, plane.corner) / dot(plane.frame.n, s.wi);
     write_vec3(0, s.wi);

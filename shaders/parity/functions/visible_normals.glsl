@@ -1,6 +1,6 @@
 #include "parity/buffers.glsl"
 
-void write_visible_normals(int at, GgxVisibleNormals normals, vec2 u, vec3 wi) {
+void write_visible_normals(int at, const GgxVisibleNormals normals, vec2 u, vec3 wi) {
     write_vec3(at, ggx_visible_normals_sample(normals, u));
     results[at + 3] = ggx_visible_normals_pdf(normals, wi);
     vec2 inverse = ggx_visible_normals_invert(normals, wi);

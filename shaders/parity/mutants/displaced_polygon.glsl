@@ -1,5 +1,5 @@
 // A mutant that the comparison must reject: its hit points lie behind the light.
-LightSample displaced_sample(Technique technique, vec2 u) {
+LightSample displaced_sample(const Technique technique, vec2 u) {
     LightSample s = technique_sample(technique, u);
     s.p = 1.001 * s.p;
     return s;

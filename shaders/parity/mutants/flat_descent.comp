@@ -3,7 +3,7 @@
 // A mutant that the comparison must reject: samples find their texel as if all of the cell were seen alike.
 #include "nusselt/emission/cell_descent.glsl"
 
-TexelChoice choose_flat(uint light, TexturePlane plane, ivec2 cell, vec2 u) {
+TexelChoice choose_flat(uint light, const TexturePlane plane, ivec2 cell, vec2 u) {
     vec3 up = vec3(0.0, 0.0, 1.0);
     return choose_texel(light, TexturePlane(up, vec3(0.0), vec3(0.0), up), cell, u);
 }

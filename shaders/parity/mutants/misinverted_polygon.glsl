@@ -1,5 +1,5 @@
 // A mutant that the comparison must reject: the second random number that it finds belongs to another sample.
-vec2 misinverted(Technique technique, vec3 wi) {
+vec2 misinverted(const Technique technique, vec3 wi) {
     vec2 u = technique_invert(technique, wi);
     return vec2(u.x, u.y * u.y);
 }

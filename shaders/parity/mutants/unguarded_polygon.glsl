@@ -1,5 +1,5 @@
 // A mutant that the contract must reject: its density is infinite where there is no sample.
-LightSample unguarded_sample(Technique technique, vec2 u) {
+LightSample unguarded_sample(const Technique technique, vec2 u) {
     LightSample s = technique_sample(technique, u);
     if (s.pdf == 0.0) s.pdf = uintBitsToFloat(0x7f800000u);
     return s;

@@ -12,7 +12,7 @@
 /// \param number    of the light
 /// \param is_paired whether there is a technique 1
 /// \param emission  a factor of what the light emits
-void add_cells(inout Estimate estimate, uint number, CELLS cells, bool is_paired, vec3 emission) {
+void add_cells(inout Estimate estimate, uint number, const CELLS cells, bool is_paired, vec3 emission) {
     estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
     TechniquePair pair;
     if (is_paired)

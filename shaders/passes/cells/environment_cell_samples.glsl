@@ -13,25 +13,27 @@ vec3 sample_cosine(vec2 u) {
 }
 
 /// The density of the cosine, or of the lobe, also below the horizon.
-float measure_pdf(Sky sky, int technique, vec3 wi) {
+float measure_pdf(const Sky sky, int technique, vec3 wi) {
     return technique == 1 ? ltc_density(sky.lobe, wi) : (1.0 / kNusseltPi) * nusselt_max(wi.z, 0.0);
 }
 
-TexturedSample measure_sample(Sky sky, int technique, vec2 u) {
+TexturedSample measure_sample(const Sky sky, int technique, vec2 u) {
     vec3 wi = sample_cosine(u);
     if (technique == 1) wi = nusselt_normalize(ltc_to_shading(sky.lobe, wi));
     return TexturedSample(wi, measure_pdf(sky, technique, wi), wi, vec2(0.0));
 }
 
 /// What the techniques share, without sums.
-EnvironmentCells seen_map(Sky sky, int technique) {
+EnvironmentCells seen_map(const Sky sky, int technique) {
     return environment_cells_prepare(sky.map, sky.diffuse.frame, technique == 1 ? sky.specular.lowest : sky.diffuse.lowest);
 }
 
-float sky_total(Sky sky, int technique) { return technique == 1 ? sky.specular.sums.total : sky.diffuse.sums.total; }
+float sky_total(const Sky sky, int technique) {
+    return technique == 1 ? sky.specular.sums.total : sky.diffuse.sums.total;
+}
 
 /// The weights of the parts of an element.
-vec4 sky_weights(Sky sky, int technique, int level, ivec2 at) {
+vec4 sky_weights(const Sky sky, int technique, int level, ivec2 at) {
     if (level == 1) return environment_map_texel_weights(sky.map, at);
     EnvironmentElements four = environment_map_parts(sky.map, level, at);
     return four.weight * (technique == 1 ? environment_ltc_factor(sky.lobe_on_map, four)
@@ -39,7 +41,7 @@ vec4 sky_weights(Sky sky, int technique, int level, ivec2 at) {
 }
 
 // As environment_cosine_sample() and environment_ltc_sample().
-TexturedSample cells_sample(Sky sky, int technique, vec2 u) {
+TexturedSample cells_sample(const Sky sky, int technique, vec2 u) {
     if (!has_map(sky)) return measure_sample(sky, technique, u);
     if (!(sky_total(sky, technique) > 0.0)) return no_textured_sample();
     CellChoice cell;
@@ -54,7 +56,7 @@ TexturedSample cells_sample(Sky sky, int technique, vec2 u) {
 }
 
 // As environment_cosine_density() and environment_ltc_density().
-float cells_pdf(Sky sky, int technique, TexturedSample s) {
+float cells_pdf(const Sky sky, int technique, const TexturedSample s) {
     if (!has_map(sky)) return measure_pdf(sky, technique, s.wi);
     if (!(sky_total(sky, technique) > 0.0)) return 0.0;
     EnvironmentCells seen = seen_map(sky, technique);
@@ -76,10 +78,10 @@ float cells_pdf(Sky sky, int technique, TexturedSample s) {
 }
 
 /// Of uniform radiance, 1: it is a factor of all samples.
-vec3 cells_radiance(Sky sky, vec2 at) { return has_map(sky) ? environment_map_lookup(sky.map, at) : vec3(1.0); }
+vec3 cells_radiance(const Sky sky, vec2 at) { return has_map(sky) ? environment_map_lookup(sky.map, at) : vec3(1.0); }
 
 /// Beyond the scene, from any of its points.
-vec3 cells_point(Sky sky, TexturedSample s) { return (4.0 * scene.radius) * s.wi; }
+vec3 cells_point(const Sky sky, const TexturedSample s) { return (4.0 * scene.radius) * s.wi; }
 
 #define CELLS Sky
 #include "passes/cells/add_cells.glsl"

@@ -17,10 +17,10 @@ struct Sky {
     EnvironmentCells specular; ///< of technique 1
 };
 
-bool has_map(Sky sky) { return kHasMappedEnvironments && (!kHasUniformEnvironments || sky.map != kNoWords); }
+bool has_map(const Sky sky) { return kHasMappedEnvironments && (!kHasUniformEnvironments || sky.map != kNoWords); }
 
 /// \param is_paired whether technique 1 is needed
-Sky prepare_sky(uint index, Frame shading, Ltc lobe, bool is_paired) {
+Sky prepare_sky(uint index, const Frame shading, const Ltc lobe, bool is_paired) {
     Sky sky;
     sky.map = environment_lights[index].first_map_word;
     sky.lobe = lobe;
@@ -42,7 +42,7 @@ Sky prepare_sky(uint index, Frame shading, Ltc lobe, bool is_paired) {
 }
 
 /// The coefficients of heuristics per albedo.
-vec3 cells_unshadowed(Sky sky, int technique) {
+vec3 cells_unshadowed(const Sky sky, int technique) {
     if (!has_map(sky)) return vec3(1.0);
     return technique == 1 ? sky.specular.unshadowed : sky.diffuse.unshadowed;
 }

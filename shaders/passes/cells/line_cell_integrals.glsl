@@ -13,7 +13,7 @@ vec3 tube_share(float along_axis, float caps, float radius, vec3 by_cells, vec3 
     return tube_integral(along_axis, radius, caps) / both * (radius * by_cells + caps * on_cap);
 }
 
-void add_line(inout Reflected reflected, LocalLine light) {
+void add_line(inout Reflected reflected, const LocalLine light) {
     if (!varies(light.radiance)) {
         if (kHasLines || kHasTubes) add_uniform_line(reflected, light);
         return;

@@ -22,7 +22,7 @@ TexturedSample cells_sample(LineLightCells cells, int technique, vec2 u) {
 }
 
 // As textured_line_density() and textured_line_ltc_density().
-float cells_pdf(LineLightCells cells, int technique, TexturedSample s) {
+float cells_pdf(LineLightCells cells, int technique, const TexturedSample s) {
     LineCells self = cells.of_technique[technique];
     LineCell cell = line_cells_cell(self, line_cells_cell_at(self, s.at.x));
     if (!(self.total > 0.0) || s.wi.z < 0.0) return 0.0;
@@ -37,10 +37,10 @@ float cells_pdf(LineLightCells cells, int technique, TexturedSample s) {
                                   line_projected_solid_angle_pdf(of_cell, s.wi));
 }
 
-vec3 cells_radiance(LineLightCells cells, vec2 at) {
+vec3 cells_radiance(const LineLightCells cells, vec2 at) {
     return line_profile_lookup(cells.of_technique[0].profile, at.x);
 }
-vec3 cells_point(LineLightCells cells, TexturedSample s) { return s.p; }
+vec3 cells_point(const LineLightCells cells, const TexturedSample s) { return s.p; }
 
 #define CELLS LineLightCells
 #include "passes/cells/add_cells.glsl"
@@ -57,7 +57,7 @@ struct LocalProfiledTube {
     LightRole role;
 };
 
-bool has_pair(ProfiledTube light, GlossySurface surface) { return is_line_paired(surface); }
+bool has_pair(const ProfiledTube light, const GlossySurface surface) { return is_line_paired(surface); }
 
 /// The techniques for radiance times the cosine at the surface and times a lobe.
 struct ProfiledTubeTechniques {
@@ -65,27 +65,27 @@ struct ProfiledTubeTechniques {
     TexturedTubeLtc ltc;
 };
 
-ProfiledTubeTechniques prepare_techniques(ProfiledTube light, GlossySurface surface, bool is_paired) {
+ProfiledTubeTechniques prepare_techniques(const ProfiledTube light, const GlossySurface surface, bool is_paired) {
     ProfiledTubeTechniques self;
     self.projected = textured_tube_prepare(light.tube, light.profile);
     if (is_paired) self.ltc = textured_tube_ltc_prepare(light.tube, light.profile, surface.lobe);
     return self;
 }
 
-LightSample techniques_sample(ProfiledTubeTechniques self, int technique, vec2 u) {
+LightSample techniques_sample(const ProfiledTubeTechniques self, int technique, vec2 u) {
     if (technique == 1) return textured_tube_ltc_sample(self.ltc, u);
     return textured_tube_sample(self.projected, u);
 }
 
-vec2 techniques_pdf(ProfiledTubeTechniques self, vec3 wi) {
+vec2 techniques_pdf(const ProfiledTubeTechniques self, vec3 wi) {
     return vec2(textured_tube_pdf(self.projected, wi), textured_tube_ltc_pdf(self.ltc, wi));
 }
 
-vec2 techniques_integrals(ProfiledTubeTechniques self) {
+vec2 techniques_integrals(const ProfiledTubeTechniques self) {
     return vec2((1.0 / kNusseltPi) * textured_tube_measure(self.projected), textured_tube_ltc_measure(self.ltc));
 }
 
-void modulate(LocalProfiledTube light, inout DirectLightSample s) { modulate(light.light, s); }
+void modulate(const LocalProfiledTube light, inout DirectLightSample s) { modulate(light.light, s); }
 
 #define LOCAL_LIGHT LocalProfiledTube
 #define TECHNIQUES ProfiledTubeTechniques
@@ -93,7 +93,7 @@ void modulate(LocalProfiledTube light, inout DirectLightSample s) { modulate(lig
 #undef LOCAL_LIGHT
 #undef TECHNIQUES
 
-void add_line(inout Estimate estimate, LocalLine light) {
+void add_line(inout Estimate estimate, const LocalLine light) {
     if (!kHasLineCells || !varies(light.radiance)) {
         add_by_measure(estimate, light);
         return;

@@ -14,7 +14,7 @@ struct LineLightCells {
 /// Techniques take turns: two copies of the code would take twice as long to compile.
 /// \param light     whose radiance varies
 /// \param is_paired whether technique 1 is needed
-LineLightCells prepare_cells(LocalLine light, Ltc lobe, bool is_paired) {
+LineLightCells prepare_cells(const LocalLine light, const Ltc lobe, bool is_paired) {
     float scale = scale_of(light.shape);
     LineSegment line = scaled(light.shape, scale);
     LineLightCells cells;

@@ -16,18 +16,18 @@ struct PartTechnique {
     PolygonProjectedSolidAngle image;
 };
 
-PartTechnique part_technique(PolygonCells cells, int technique, ConvexPolygon polygon) {
+PartTechnique part_technique(const PolygonCells cells, int technique, ConvexPolygon polygon) {
     PolygonPart part = whole_part(polygon);
     if (kHasCellPairs && technique == 1) polygon = to_cosine_space(part.polygon, cells.lobe);
     return PartTechnique(part, polygon_projected_solid_angle_prepare(polygon));
 }
 
-PolygonLtc on_lobe(PolygonCells cells, PartTechnique self) {
+PolygonLtc on_lobe(const PolygonCells cells, const PartTechnique self) {
     return polygon_ltc_prepare_image(self.part, cells.lobe, self.image);
 }
 
 // As textured_polygon_sample() and textured_polygon_ltc_sample(), with one copy of what they share.
-TexturedSample cells_sample(PolygonCells cells, int technique, vec2 u) {
+TexturedSample cells_sample(const PolygonCells cells, int technique, vec2 u) {
     TexturedView view = cells.diffuse.view;
     float total = cells.diffuse.sums.total;
     CellChoice cell;
@@ -48,7 +48,7 @@ TexturedSample cells_sample(PolygonCells cells, int technique, vec2 u) {
 }
 
 // As textured_polygon_density() and textured_polygon_ltc_density().
-float cells_pdf(PolygonCells cells, int technique, TexturedSample s) {
+float cells_pdf(const PolygonCells cells, int technique, const TexturedSample s) {
     TexturedView view = cells.diffuse.view;
     float total = cells.diffuse.sums.total;
     CellChoice cell;
@@ -68,14 +68,14 @@ float cells_pdf(PolygonCells cells, int technique, TexturedSample s) {
     return spot.cell.probability * pdf;
 }
 
-vec3 cells_radiance(PolygonCells cells, vec2 at) { return texture_radiance(cells.texture_number, at); }
-vec3 cells_point(PolygonCells cells, TexturedSample s) { return s.p; }
+vec3 cells_radiance(const PolygonCells cells, vec2 at) { return texture_radiance(cells.texture_number, at); }
+vec3 cells_point(const PolygonCells cells, const TexturedSample s) { return s.p; }
 
 #define CELLS PolygonCells
 #include "passes/cells/add_cells.glsl"
 #undef CELLS
 
-void add_polygon(inout Estimate estimate, LocalPolygon light) {
+void add_polygon(inout Estimate estimate, const LocalPolygon light) {
     if (!kHasCellSamples || light.texture_number < 0) {
         if (kHasPolygons || kHasProfiledPolygons || kHasPortals || !kHasCellSamples) add_light(estimate, light);
         return;

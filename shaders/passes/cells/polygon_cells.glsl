@@ -19,7 +19,7 @@ struct PolygonCells {
 /// Techniques take turns: two copies of the code would take twice as long to compile.
 /// \param light     with a texture
 /// \param is_paired whether technique 1 is needed
-PolygonCells prepare_cells(LocalPolygon light, Ltc lobe, bool is_paired) {
+PolygonCells prepare_cells(const LocalPolygon light, const Ltc lobe, bool is_paired) {
     uint first_word = polygon_textures[light.texture_number].first_word;
     PolygonCells cells;
     cells.texture_number = light.texture_number;
@@ -37,7 +37,7 @@ PolygonCells prepare_cells(LocalPolygon light, Ltc lobe, bool is_paired) {
     return cells;
 }
 
-vec3 cells_unshadowed(PolygonCells cells, int technique) {
+vec3 cells_unshadowed(const PolygonCells cells, int technique) {
     if (technique == 1) return textured_cells_unshadowed(cells.specular);
     return textured_cells_unshadowed(cells.diffuse);
 }

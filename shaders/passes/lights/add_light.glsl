@@ -4,7 +4,7 @@
 ///         modulate(light, s): multiplies a sample by what the light emits there, as a part of role.emission;
 ///     TECHNIQUES: see techniques.glsl.
 
-void add_light(inout Estimate estimate, LOCAL_LIGHT light) {
+void add_light(inout Estimate estimate, const LOCAL_LIGHT light) {
     if (!light.role.is_lit) return;
     estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));
     GlossySurface glossy = estimate.reflection.glossy;

@@ -8,7 +8,7 @@ layout(constant_id = kDistantsConstant) const bool kHasDistants = true;
 
 layout(set = 0, binding = kDistantLightsBinding, std430) readonly buffer DistantLights { DistantLightRecord distant_lights[]; };
 
-OneDirection local_distant(Surface surface, uint index) {
+OneDirection local_distant(const Surface surface, uint index) {
     DistantLightRecord record = distant_lights[index];
     vec3 to_light = to_vec(record.to_light);
     // Longer than the scene, from any of its points.

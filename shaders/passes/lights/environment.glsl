@@ -46,7 +46,7 @@ bool has_portal(uint index) {
 }
 
 /// Whether a ray leaves through the portal of an environment.
-bool leaves_through(uint index, Ray ray) {
+bool leaves_through(uint index, const Ray ray) {
     uint first = environment_lights[index].first_corner_word;
     vec3 normal = to_vec(environment_lights[index].normal);
     float along = dot(normal, ray.direction);
@@ -60,7 +60,7 @@ bool leaves_through(uint index, Ray ray) {
 }
 
 /// What a ray sees that meets nothing [W/(sr m^2)].
-vec3 background(Ray ray) {
+vec3 background(const Ray ray) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < scene.lights[kEnvironmentKind].count; ++i)
         if (!has_portal(i) || leaves_through(i, ray)) sum += radiance_towards(i, nusselt_normalize(ray.direction));

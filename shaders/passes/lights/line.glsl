@@ -39,15 +39,15 @@ struct LocalTube {
 };
 
 bool is_tube(uint model) { return model == kSolidTube || model == kOpenTube; }
-bool is_tube(LocalLine light) { return is_tube(light.model); }
+bool is_tube(const LocalLine light) { return is_tube(light.model); }
 
-LocalTube tube_of(LocalLine light) {
+LocalTube tube_of(const LocalLine light) {
     return LocalTube(Cylinder(light.shape, light.radius), light.model == kOpenTube, light.radiance, light.emission_profile,
                      light.role);
 }
 
 /// \param index among the lines and tubes
-LocalLine local_line(Surface surface, uint index) {
+LocalLine local_line(const Surface surface, uint index) {
     LineLightRecord record = line_lights[index];
     LineSegment world = LineSegment(to_vec(record.begin), to_vec(record.direction), record.len);
     LocalLine light;
@@ -71,7 +71,7 @@ LocalLine local_line(Surface surface, uint index) {
 
 /// Where a ray that meets a light does so, as a share of the length. Cameras see a cylinder with flat sides: rays that miss
 /// the round one have the closest point of its axis.
-float place_along(LineLightRecord record, Cylinder tube, vec3 wi) {
+float place_along(const LineLightRecord record, const Cylinder tube, vec3 wi) {
     LineSegment axis = tube.axis;
     if (record.model == kStrip) {
         vec3 normal = to_vec(record.normal);
@@ -84,13 +84,13 @@ float place_along(LineLightRecord record, Cylinder tube, vec3 wi) {
 }
 
 /// The part of a vector from the start of a line that is perpendicular to it.
-vec3 across(LineSegment axis, vec3 p) {
+vec3 across(const LineSegment axis, vec3 p) {
     vec3 from_start = p - axis.p0;
     return from_start - dot(from_start, axis.s) * axis.s;
 }
 
 /// The radiance of a light with a profile over its mean. \param wi unit, towards the light
-float relative_radiance(LineLightRecord record, Cylinder tube, vec3 wi) {
+float relative_radiance(const LineLightRecord record, const Cylinder tube, vec3 wi) {
     uint profile = record.first_profile_word;
     LineEmissionProfile emission_profile = LineEmissionProfile(profile, profile_axes(profile));
     LightHit hit = intersect(tube, wi);
@@ -102,7 +102,7 @@ float relative_radiance(LineLightRecord record, Cylinder tube, vec3 wi) {
 }
 
 /// The radiance along a ray that meets the light.
-vec3 line_emission(uint index, Ray ray) {
+vec3 line_emission(uint index, const Ray ray) {
     LineLightRecord record = line_lights[index];
     LineSegment axis = LineSegment(to_vec(record.begin) - ray.origin, to_vec(record.direction), record.len);
     Cylinder tube = Cylinder(axis, record.radius);

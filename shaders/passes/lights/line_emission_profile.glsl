@@ -12,11 +12,11 @@ struct LineEmissionProfile {
     ProfileAxes axes; ///< in shading space, or in world space for cameras
 };
 
-bool has_emission_profile(LineEmissionProfile self) {
+bool has_emission_profile(const LineEmissionProfile self) {
     return (kHasProfiledLines || kHasProfiledTubes) && self.profile != kNoWords;
 }
 
-LineEmissionProfile local_emission_profile(uint profile, Frame shading) {
+LineEmissionProfile local_emission_profile(uint profile, const Frame shading) {
     LineEmissionProfile self;
     self.profile = profile;
     if (has_emission_profile(self)) self.axes = to_shading_space(profile_axes(profile), shading);
@@ -40,13 +40,13 @@ float whole_spread_share(uint profile, bool is_strip, float along, float cosine)
 
 /// The radiance of a linear light or a strip over its mean.
 /// \param along direction of the line, \param away unit, from the light: in the frame of the axes
-float radiance_of_line(LineEmissionProfile self, bool is_strip, vec3 along, vec3 away) {
+float radiance_of_line(const LineEmissionProfile self, bool is_strip, vec3 along, vec3 away) {
     return whole_spread_share(self.profile, is_strip, dot(along, away), dot(self.axes.normal, away)) *
            relative_luminance(self.profile, self.axes, away);
 }
 
 /// The radiance of a point of a tube over the mean. \param cosine of the direction with the normal there
-float radiance_of_tube(LineEmissionProfile self, float cosine, vec3 away) {
+float radiance_of_tube(const LineEmissionProfile self, float cosine, vec3 away) {
     return spread_share(self.profile, cosine) * relative_luminance(self.profile, self.axes, away);
 }
 

@@ -6,19 +6,19 @@
 #include "passes/lights/line.glsl"
 
 /// The integrals of the diffuse and the specular lobe over the axis of a light, per radius.
-vec2 axis_integrals(LocalLine light, Ltc lobe) {
+vec2 axis_integrals(const LocalLine light, const Ltc lobe) {
     return vec2(diffuse_integral(light.shape), clipped_lobe_integral(light.shape, lobe));
 }
 
 /// The same over the caps of a tube.
-vec2 caps_integrals(LocalLine light, Ltc lobe) {
+vec2 caps_integrals(const LocalLine light, const Ltc lobe) {
     if (light.model != kSolidTube) return vec2(0.0);
     return vec2(diffuse_caps_integral(light.shape, light.radius),
                 clipped_caps_integral(light.shape, light.radius, lobe));
 }
 
 /// Adds a light of uniform radiance.
-void add_uniform_line(inout Reflected reflected, LocalLine light) {
+void add_uniform_line(inout Reflected reflected, const LocalLine light) {
     vec2 integrals = axis_integrals(light, reflected.glossy.lobe);
     if (kHasTubes && is_tube(light)) {
         vec2 caps = caps_integrals(light, reflected.glossy.lobe);
@@ -31,7 +31,7 @@ void add_uniform_line(inout Reflected reflected, LocalLine light) {
 #if LINE_CELLS
 #include "passes/cells/line_cell_integrals.glsl"
 #else
-void add_line(inout Reflected reflected, LocalLine light) { add_uniform_line(reflected, light); }
+void add_line(inout Reflected reflected, const LocalLine light) { add_uniform_line(reflected, light); }
 #endif
 
 void add_lines(inout Reflected reflected) {

@@ -16,12 +16,12 @@ struct LineRadiance {
     vec3 inverse_mean;
 };
 
-bool varies(LineRadiance self) {
+bool varies(const LineRadiance self) {
     return (kHasTexturedLines || kHasTexturedTubes) && self.profile != kNoWords;
 }
 
 /// Radiance at a point over its mean.
-vec3 relative_radiance(LineRadiance self, LineSegment axis, vec3 p) {
+vec3 relative_radiance(const LineRadiance self, const LineSegment axis, vec3 p) {
     return self.inverse_mean * line_profile_lookup(self.profile, place_along(axis, p));
 }
 

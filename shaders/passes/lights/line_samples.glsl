@@ -14,11 +14,11 @@
 #include "passes/lights/techniques.glsl"
 
 /// Samples of the BRDF never hit a line.
-bool is_line_paired(GlossySurface surface) {
+bool is_line_paired(const GlossySurface surface) {
     return kStrategies == kStrategiesDiffuseLtc && glossy_surface_is_glossy(surface);
 }
-bool has_pair(LineSegment light, GlossySurface surface) { return is_line_paired(surface); }
-bool has_pair(Cylinder light, GlossySurface surface) { return is_line_paired(surface); }
+bool has_pair(const LineSegment light, const GlossySurface surface) { return is_line_paired(surface); }
+bool has_pair(const Cylinder light, const GlossySurface surface) { return is_line_paired(surface); }
 
 struct LineTechniques {
     LineArea area;
@@ -27,7 +27,7 @@ struct LineTechniques {
     LineLtc ltc;
 };
 
-LineTechniques prepare_techniques(LineSegment light, GlossySurface surface, bool is_paired) {
+LineTechniques prepare_techniques(const LineSegment light, const GlossySurface surface, bool is_paired) {
     LineTechniques self;
     if (kTechnique == kTechniqueArea)
         self.area = line_area_prepare(light);
@@ -43,7 +43,7 @@ LineTechniques prepare_techniques(LineSegment light, GlossySurface surface, bool
     return self;
 }
 
-LightSample techniques_sample(LineTechniques self, int technique, vec2 u) {
+LightSample techniques_sample(const LineTechniques self, int technique, vec2 u) {
     if (technique == 1) return line_ltc_sample(self.ltc, u.x);
     if (kTechnique == kTechniqueArea) return line_area_sample(self.area, u.x);
     if (kIsSolidAngle) return line_solid_angle_sample(self.solid_angle, u.x);
@@ -52,11 +52,11 @@ LightSample techniques_sample(LineTechniques self, int technique, vec2 u) {
 }
 
 /// The densities of both techniques. Pairs begin with a projected solid angle.
-vec2 techniques_pdf(LineTechniques self, vec3 wi) {
+vec2 techniques_pdf(const LineTechniques self, vec3 wi) {
     return vec2(line_projected_solid_angle_pdf(self.projected, wi), line_ltc_pdf(self.ltc, wi));
 }
 
-vec2 techniques_integrals(LineTechniques self) {
+vec2 techniques_integrals(const LineTechniques self) {
     return vec2((1.0 / kNusseltPi) * line_projected_solid_angle_measure(self.projected), line_ltc_measure(self.ltc));
 }
 
@@ -67,7 +67,7 @@ struct TubeTechniques {
     CylinderLtc ltc;
 };
 
-TubeTechniques prepare_techniques(Cylinder light, GlossySurface surface, bool is_paired) {
+TubeTechniques prepare_techniques(const Cylinder light, const GlossySurface surface, bool is_paired) {
     TubeTechniques self;
     if (kTechnique == kTechniqueArea)
         self.area = cylinder_area_prepare(light);
@@ -81,7 +81,7 @@ TubeTechniques prepare_techniques(Cylinder light, GlossySurface surface, bool is
     return self;
 }
 
-LightSample techniques_sample(TubeTechniques self, int technique, vec2 u) {
+LightSample techniques_sample(const TubeTechniques self, int technique, vec2 u) {
     if (technique == 1) return cylinder_ltc_sample(self.ltc, u);
     if (kTechnique == kTechniqueArea) return cylinder_area_sample(self.area, u);
     if (kIsSolidAngle) return cylinder_solid_angle_sample(self.solid_angle, u);
@@ -90,24 +90,24 @@ LightSample techniques_sample(TubeTechniques self, int technique, vec2 u) {
 }
 
 /// The densities of both techniques. Pairs begin with a projected solid angle.
-vec2 techniques_pdf(TubeTechniques self, vec3 wi) {
+vec2 techniques_pdf(const TubeTechniques self, vec3 wi) {
     return vec2(cylinder_projected_solid_angle_pdf(self.projected, wi), cylinder_ltc_pdf(self.ltc, wi));
 }
 
-vec2 techniques_integrals(TubeTechniques self) {
+vec2 techniques_integrals(const TubeTechniques self) {
     return vec2((1.0 / kNusseltPi) * cylinder_projected_solid_angle_measure(self.projected),
                 cylinder_ltc_measure(self.ltc));
 }
 
 /// Multiplies a sample by the radiance at its point and in its direction over the mean.
-void modulate(LocalLine light, inout DirectLightSample s) {
+void modulate(const LocalLine light, inout DirectLightSample s) {
     if (kHasProfiledLines && has_emission_profile(light.emission_profile))
         s.shadowed = radiance_of_line(light.emission_profile, light.model == kStrip, light.shape.s, -s.wi) * s.shadowed;
     if (kHasTexturedLines && varies(light.radiance))
         s.shadowed = relative_radiance(light.radiance, light.shape, s.p) * s.shadowed;
 }
 /// Likewise. Samples on a part of the light that does not shine count like those in shadow.
-void modulate(LocalTube light, inout DirectLightSample s) {
+void modulate(const LocalTube light, inout DirectLightSample s) {
     LineSegment axis = light.shape.axis;
     if (kHasTexturedTubes && varies(light.radiance))
         s.shadowed = relative_radiance(light.radiance, axis, s.p) * s.shadowed;
@@ -145,7 +145,7 @@ const bool kHasLinesByMeasure = kHasLines || kHasProfiledLines || (kHasTexturedL
 const bool kHasTubesByMeasure = kHasTubes || kHasProfiledTubes || (kHasTexturedTubes && !kHasLineCells);
 
 /// Adds samples by the measure of the technique.
-void add_by_measure(inout Estimate estimate, LocalLine light) {
+void add_by_measure(inout Estimate estimate, const LocalLine light) {
     if (kHasTubesByMeasure && is_tube(light))
         add_light(estimate, tube_of(light));
     else if (kHasLinesByMeasure)
@@ -155,7 +155,7 @@ void add_by_measure(inout Estimate estimate, LocalLine light) {
 #if LINE_CELLS
 #include "passes/cells/line_cell_samples.glsl"
 #else
-void add_line(inout Estimate estimate, LocalLine light) { add_by_measure(estimate, light); }
+void add_line(inout Estimate estimate, const LocalLine light) { add_by_measure(estimate, light); }
 #endif
 
 void add_lines(inout Estimate estimate) {

@@ -18,7 +18,8 @@ struct OneDirection {
 /// \param to_light unit direction in world space
 /// \param way      to the point where shadow rays end, in world space
 /// \param usable   whether the light has a direction
-OneDirection light_in_direction(Surface surface, vec3 to_light, vec3 way, bool usable, vec3 irradiance, uint number) {
+OneDirection light_in_direction(const Surface surface, vec3 to_light, vec3 way, bool usable, vec3 irradiance,
+                                uint number) {
     OneDirection light;
     light.wi = frame_to_local(surface.shading, to_light);
     light.p = frame_to_local(surface.shading, way);
@@ -30,6 +31,6 @@ OneDirection light_in_direction(Surface surface, vec3 to_light, vec3 way, bool u
 }
 
 /// No ray meets such lights.
-vec3 no_emission(uint index, Ray ray) { return vec3(0.0); }
+vec3 no_emission(uint index, const Ray ray) { return vec3(0.0); }
 
 #endif

@@ -5,7 +5,7 @@
 #include "passes/lights/distant.glsl"
 #include "passes/lights/point.glsl"
 
-void add_direction(inout Reflected reflected, OneDirection light) {
+void add_direction(inout Reflected reflected, const OneDirection light) {
     if (!light.role.is_lit) return;
     vec2 lobes = vec2((1.0 / kNusseltPi) * light.wi.z, ltc_density(reflected.glossy.lobe, light.wi));
     add_light(reflected, light.role, lobes);

@@ -5,7 +5,7 @@
 #include "passes/lights/distant.glsl"
 #include "passes/lights/point.glsl"
 
-void add_direction(inout Estimate estimate, OneDirection light) {
+void add_direction(inout Estimate estimate, const OneDirection light) {
     // The part of the frame with the first samples has it.
     if (!light.role.is_lit || frame.first_sample != 0u) return;
     estimate.sum = CompensatedSum(vec3(0.0), vec3(0.0));

@@ -16,7 +16,7 @@ layout(set = 0, binding = kPointLightsBinding, std430) readonly buffer PointLigh
 
 /// \param across the part of the direction across the axis
 /// \param along  its cosine with the axis
-float cone_share(PointLightRecord light, vec3 across, float along) {
+float cone_share(const PointLightRecord light, vec3 across, float along) {
     // 1 - cosine, which a difference would cancel in narrow cones.
     float x = along > 0.0 ? dot(across, across) / (1.0 + along) : 1.0 - along;
     float t = nusselt_max(nusselt_min((light.cone_end - x) * light.inverse_cone_width, 1.0), 0.0);
@@ -43,12 +43,12 @@ vec2 latitude_place(vec3 w) {
 }
 
 /// \param place with v downwards, while rows of textures are numbered upwards
-vec3 light_texel(PointLightRecord light, vec2 place) {
+vec3 light_texel(const PointLightRecord light, vec2 place) {
     if (light.texture_number < 0) return vec3(1.0);
     return look_up_texture(uint(light.texture_number), vec2(place.x, 1.0 - place.y));
 }
 
-vec3 projection_share(PointLightRecord light, vec3 w) {
+vec3 projection_share(const PointLightRecord light, vec3 w) {
     if (!(w.z > 0.0)) return vec3(0.0);
     float x = w.x / (w.z * light.half_extent[0]);
     float y = w.y / (w.z * light.half_extent[1]);
@@ -57,7 +57,7 @@ vec3 projection_share(PointLightRecord light, vec3 w) {
 }
 
 /// The share of the intensity in a direction. \param away unit, in world space
-vec3 point_share(PointLightRecord light, vec3 away) {
+vec3 point_share(const PointLightRecord light, vec3 away) {
     vec3 w = vec3(dot(to_vec(light.x_axis), away), dot(to_vec(light.y_axis), away), dot(to_vec(light.z_axis), away));
     if (light.distribution == kSmoothCone || light.distribution == kQuarticCone)
         return vec3(cone_share(light, away - w.z * to_vec(light.z_axis), w.z));
@@ -68,7 +68,7 @@ vec3 point_share(PointLightRecord light, vec3 away) {
     return projection_share(light, w);
 }
 
-OneDirection local_point(Surface surface, uint index) {
+OneDirection local_point(const Surface surface, uint index) {
     PointLightRecord record = point_lights[index];
     vec3 way = to_vec(record.position) - surface.position;
     float squared = dot(way, way);

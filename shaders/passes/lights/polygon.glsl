@@ -29,7 +29,7 @@ struct LocalPolygon {
 
 /// \param shape of the light, in shading space
 /// \param index among the polygonal lights
-LocalPolygon local_polygon(Surface surface, ConvexPolygon shape, uint index) {
+LocalPolygon local_polygon(const Surface surface, const ConvexPolygon shape, uint index) {
     // A planar light does not light itself, but rounding may put a point of it in front of its plane.
     uint number = light_number(kPolygonKind, index);
     bool is_lit = surface.light != int(number);
@@ -50,7 +50,7 @@ LocalPolygon local_polygon(Surface surface, ConvexPolygon shape, uint index) {
 }
 
 /// The radiance along a ray that meets the light.
-vec3 polygon_emission(uint index, Ray ray) {
+vec3 polygon_emission(uint index, const Ray ray) {
     bool is_seen =
         polygon_lights[index].is_two_sided != 0u || dot(to_vec(polygon_lights[index].normal), ray.direction) < 0.0;
     if (!is_seen) return vec3(0.0);

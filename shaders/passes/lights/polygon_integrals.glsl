@@ -5,7 +5,7 @@
 #include "nusselt/ltc/polygon_shading.glsl"
 #include "passes/lights/portal.glsl"
 
-vec2 lobe_integrals(ConvexPolygon light, Ltc lobe) {
+vec2 lobe_integrals(const ConvexPolygon light, const Ltc lobe) {
     return vec2(diffuse_integral(light), clipped_lobe_integral(light, lobe));
 }
 

@@ -7,7 +7,7 @@
 layout(constant_id = kProfiledPolygonsConstant) const bool kHasProfiledPolygons = true;
 
 /// The radiance in a direction over its mean. \param away unit, from the light, in the frame of the axes
-float relative_radiance(uint profile, ProfileAxes axes, vec3 away) {
+float relative_radiance(uint profile, const ProfileAxes axes, vec3 away) {
     float share = 1.0;
     float inverse_slope = emission_float(profile + kProfileInverseSlope);
     vec2 inverse_holes =

@@ -13,7 +13,7 @@
 #include "passes/lights/portal.glsl"
 #include "passes/lights/techniques.glsl"
 
-bool has_pair(ConvexPolygon light, GlossySurface surface) {
+bool has_pair(const ConvexPolygon light, const GlossySurface surface) {
     return kStrategies != kStrategiesDiffuse && glossy_surface_is_glossy(surface);
 }
 
@@ -27,7 +27,7 @@ struct PolygonTechniques {
 };
 
 /// \param is_paired whether technique 1 is needed
-PolygonTechniques prepare_techniques(ConvexPolygon light, GlossySurface surface, bool is_paired) {
+PolygonTechniques prepare_techniques(const ConvexPolygon light, const GlossySurface surface, bool is_paired) {
     PolygonTechniques self;
     if (kTechnique == kTechniqueArea)
         self.area = polygon_area_prepare(light);
@@ -55,7 +55,7 @@ PolygonTechniques prepare_techniques(ConvexPolygon light, GlossySurface surface,
     return self;
 }
 
-LightSample techniques_sample(PolygonTechniques self, int technique, vec2 u) {
+LightSample techniques_sample(const PolygonTechniques self, int technique, vec2 u) {
     if (technique == 1) {
         if (kHasBrdfSamples) return polygon_brdf_sample(self.brdf, u);
         if (kStrategies != kStrategiesDiffuseLtc) return unknown_sample();
@@ -71,7 +71,7 @@ LightSample techniques_sample(PolygonTechniques self, int technique, vec2 u) {
 }
 
 /// The densities of both techniques. Pairs begin with a solid angle or a projected one.
-vec2 techniques_pdf(PolygonTechniques self, vec3 wi) {
+vec2 techniques_pdf(const PolygonTechniques self, vec3 wi) {
     vec2 pdf;
     if (kTechnique == kTechniqueSolidAngle)
         pdf.x = polygon_solid_angle_pdf(self.solid_angle, wi);
@@ -91,7 +91,7 @@ vec2 techniques_pdf(PolygonTechniques self, vec3 wi) {
 }
 
 /// The integrals of the normalised components, as far as both techniques know them: 0 for samples of the BRDF.
-vec2 techniques_integrals(PolygonTechniques self) {
+vec2 techniques_integrals(const PolygonTechniques self) {
     float measure;
     if (kTechnique == kTechniqueSolidAngle)
         measure = polygon_solid_angle_measure(self.solid_angle);
@@ -106,7 +106,7 @@ vec2 techniques_integrals(PolygonTechniques self) {
 }
 
 /// Multiplies a sample by the radiance at its point and in its direction over the mean.
-void modulate(LocalPolygon light, inout DirectLightSample s) {
+void modulate(const LocalPolygon light, inout DirectLightSample s) {
     if (kHasPortals && light.environment >= 0) {
         // Light comes from beyond the scene.
         s.p = (4.0 * scene.radius) * s.wi;

@@ -37,7 +37,7 @@ vec3 texture_radiance(int number, vec2 at) {
 }
 
 /// Radiance where a ray meets the plane of the texture [W/(sr m^2)].
-vec3 texture_radiance_along(int number, Ray ray) {
+vec3 texture_radiance_along(int number, const Ray ray) {
     TexturePlane plane = texture_plane(number);
     plane.corner -= ray.origin;
     float distance = dot(plane.normal, plane.corner) / dot(plane.normal, ray.direction);

@@ -2,7 +2,7 @@
 #define NUSSELT_PASSES_LIGHTS_POLYGON_UNIFORM_INTEGRALS_GLSL
 /// Integrals over polygonal lights without images.
 
-void add_polygon(inout Reflected reflected, LocalPolygon light) {
+void add_polygon(inout Reflected reflected, const LocalPolygon light) {
     add_light(reflected, light.role, lobe_integrals(light.shape, reflected.glossy.lobe));
 }
 

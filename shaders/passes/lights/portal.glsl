@@ -27,10 +27,10 @@ PolygonOrPortal polygon_or_portal(uint i) {
     return PolygonOrPortal(false, first_index(kPolygonKind) + i);
 }
 
-bool has_shape(PolygonOrPortal light) { return !light.is_environment || has_portal(light.index); }
+bool has_shape(const PolygonOrPortal light) { return !light.is_environment || has_portal(light.index); }
 
 /// What passes a portal. \param shape in shading space, \param index among the environments
-LocalPolygon local_portal(Surface surface, ConvexPolygon shape, uint index) {
+LocalPolygon local_portal(const Surface surface, const ConvexPolygon shape, uint index) {
     LocalPolygon light;
     light.shape = shape;
     // A map is looked up in the direction of each sample.
@@ -47,7 +47,7 @@ LocalPolygon local_portal(Surface surface, ConvexPolygon shape, uint index) {
 }
 
 /// \param light for which has_shape() holds
-LocalPolygon local_polygon_or_portal(Surface surface, PolygonOrPortal light) {
+LocalPolygon local_polygon_or_portal(const Surface surface, const PolygonOrPortal light) {
     uint index = light.index;
     uint first_word;
     vec3 normal;

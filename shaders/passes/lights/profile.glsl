@@ -16,7 +16,7 @@ ProfileAxes profile_axes(uint profile) {
                        emission_vec3(at + 12u));
 }
 
-ProfileAxes to_shading_space(ProfileAxes world, Frame frame) {
+ProfileAxes to_shading_space(const ProfileAxes world, const Frame frame) {
     return ProfileAxes(frame_to_local(frame, world.x), frame_to_local(frame, world.y), frame_to_local(frame, world.z),
                        frame_to_local(frame, world.normal), frame_to_local(frame, world.hole));
 }
@@ -30,7 +30,7 @@ float spread_share(uint profile, float cosine) {
 }
 
 /// The luminance of a profile without spread and honeycomb, over the mean. \param away unit, in the frame of the axes
-float relative_luminance(uint profile, ProfileAxes axes, vec3 away) {
+float relative_luminance(uint profile, const ProfileAxes axes, vec3 away) {
     float inverse_mean = emission_float(profile + kProfileInverseMean);
     uint luminaire = emission_words[profile + kProfileLuminaire];
     if (luminaire == kNoWords) return inverse_mean;

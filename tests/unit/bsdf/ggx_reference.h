@@ -42,8 +42,10 @@ struct GgxReference {
 
 /// Integral of f(wi) over directions above a plane z = lowest. The nodes are denser near that plane and opposite to
 /// wo, where half vectors change fast if wo is close to the horizon.
+/// \param tolerance absolute error of the integral
 template <class Integrand>
-long double integrate_directions(const Point& wo, long double lowest, const Integrand& f) {
+long double integrate_directions(const Point& wo, long double lowest, const Integrand& f,
+                                 long double tolerance = 1e-7L) {
     const long double opposite = std::atan2(-wo.y, -wo.x);
     const auto over_square = [&](long double u, long double v) {
         const long double s = 2 * u - 1;
@@ -53,7 +55,7 @@ long double integrate_directions(const Point& wo, long double lowest, const Inte
         const long double jacobian = 6 * kPi * s * s * 2 * (1 - lowest) * v;
         return jacobian * f(Point{r * std::cos(phi), r * std::sin(phi), z});
     };
-    return integrate_square(over_square, 1e-7L);
+    return integrate_square(over_square, tolerance);
 }
 
 inline Point direction_at(long double inclination, long double azimuth) {
