@@ -72,8 +72,7 @@ public:
                 table_position(point.offset)};
     }
 
-    /// \param wi a unit direction towards the light. The density is 0 where the light is black; beside the light, it may be
-    ///           that of the nearest part.
+    /// \param wi a unit direction towards the light; the density is 0 where it is black. Beside the light, it may be above 0.
     NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
         if (!(sums_.total() > T(0))) return T(0);
         const Hit where = hit(wi);

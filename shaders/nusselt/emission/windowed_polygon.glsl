@@ -62,8 +62,7 @@ TexturedSample windowed_polygon_sample(WindowedPolygon self, vec2 u) {
         view, cell, polygon_projected_solid_angle_sample(windowed_polygon_technique(view, part), cell.u));
 }
 
-/// \param wi a unit direction towards the light. The density is 0 where the light is black; beside the light, it may be
-///           that of the nearest part.
+/// \param wi a unit direction towards the light; the density is 0 where it is black. Beside the light, it may be above 0.
 float windowed_polygon_pdf(WindowedPolygon self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return 0.0;
     WindowedView view = self.view;
