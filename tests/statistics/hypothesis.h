@@ -32,8 +32,8 @@ inline double chi_square_p_value(double statistic, int degrees_of_freedom) {
     return factor / (1 + x - a - fraction);
 }
 
-/// p-value of Pearson's test. Cells with few expected samples are pooled; a sample in a cell that must be empty
-/// proves an error.
+/// p-value of Pearson's test. Cells with few expected samples are pooled; a sample where exactly none is expected proves an
+/// error.
 inline double chi_square_test(const std::vector<double>& expected,
                               const std::vector<std::int64_t>& observed) {
     constexpr double kLeastExpected = 10;
@@ -47,6 +47,7 @@ inline double chi_square_test(const std::vector<double>& expected,
     };
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto count = static_cast<double>(observed[i]);
+        if (expected[i] == 0 && count > 0) return 0;
         if (expected[i] >= kLeastExpected) {
             add(expected[i], count);
         } else {

@@ -23,7 +23,11 @@ TEST(HypothesisTest, ChiSquareComparesCounts) {
     // The last two cells are pooled.
     EXPECT_NEAR(chi_square_test({50, 41, 5, 5}, {60, 31, 10, 0}), chi_square_p_value(4.0 / 2 + 100.0 / 41, 2),
                 1e-12);
-    EXPECT_EQ(chi_square_test({50, 50, 0}, {30, 30, 40}), 0);
+    EXPECT_EQ(chi_square_test({50, 50, 1e-9}, {30, 30, 40}), 0);
+    // A single sample is too many where there must be none, even beside others that would be pooled.
+    EXPECT_GT(chi_square_test({50, 50, 0, 20}, {50, 49, 0, 21}), 0.9);
+    EXPECT_EQ(chi_square_test({50, 50, 0, 20}, {50, 49, 1, 20}), 0);
+    EXPECT_GT(chi_square_test({50, 50, 1e-9, 20}, {50, 49, 1, 20}), 0.9);
 }
 
 TEST(HypothesisTest, KolmogorovSmirnov) {

@@ -20,7 +20,7 @@ struct PyramidShape {
     int size;                ///< number of elements of all grids together
     int offset[kMostLevels]; ///< index of the first element of each grid
 
-    /// \param cells columns and rows of the lattice, a power of two.
+    /// \param lattice_cells columns and rows of the lattice, a power of two.
     /// \param width, height of the texture, at most 2^14.
     NUSSELT_HD PyramidShape(int lattice_cells, int width, int height) noexcept
         : cells_log2(0), levels(0), size(0), offset{} {

@@ -3,8 +3,8 @@
 /// (windowed_polygon.h) are worth their cost.
 ///
 /// Samples of a solid angle, times radiance, have a relative variance of about window_variation(): cosines and horizons may make
-/// it larger. They cost a small part of those of cells. A renderer takes them for points where it is at most kLittleVariation. This is a property of light and point,
-/// never of random numbers, so that neither way of sampling is biased.
+/// it larger. They cost a small part of those of cells. A renderer takes them for points where it is at most kLittleVariation.
+/// This is a property of light and point, never of random numbers, so that neither way of sampling is biased.
 
 #include <nusselt/emission/windowed_light.h>
 

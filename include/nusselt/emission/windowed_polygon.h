@@ -72,7 +72,7 @@ public:
                 table_position(point.offset)};
     }
 
-    /// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
+    /// \param wi a unit direction towards the light; the density is 0 where it is black. Beside the light, it may be above 0.
     NUSSELT_HD T pdf(const Vec3<T>& wi) const noexcept {
         if (!(sums_.total() > T(0))) return T(0);
         const Hit where = hit(wi);

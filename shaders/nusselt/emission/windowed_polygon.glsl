@@ -66,7 +66,8 @@ TexturedSample windowed_polygon_sample(const WindowedPolygon self, vec2 u) {
         view, cell, polygon_projected_solid_angle_sample(windowed_polygon_technique(view, part), cell.u));
 }
 
-/// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
+/// \param wi a unit direction towards the light; the density is 0 where it is black. Beside the light, it may be
+///           positive.
 float windowed_polygon_pdf(const WindowedPolygon self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return 0.0;
     WindowedView view = self.view;

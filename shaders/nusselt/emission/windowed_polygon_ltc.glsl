@@ -70,7 +70,8 @@ TexturedSample windowed_polygon_ltc_sample(const WindowedPolygonLtc self, vec2 u
                                        polygon_ltc_sample(windowed_polygon_ltc_technique(self, part), cell.u));
 }
 
-/// \param wi a unit direction; the density is 0 where nothing of the light is, or where it is black.
+/// \param wi a unit direction towards the light; the density is 0 where it is black. Beside the light, it may be
+///           positive.
 float windowed_polygon_ltc_pdf(const WindowedPolygonLtc self, vec3 wi) {
     if (!(self.sums.total > 0.0)) return 0.0;
     WindowedView view = self.view;

@@ -98,7 +98,7 @@ float relative_radiance(const LineLightRecord record, const Cylinder tube, vec3 
     if (!is_tube(record.model) || !hit.hits)
         return radiance_of_line(emission_profile, record.model == kStrip, tube.axis.s, -wi);
     vec3 normal = meets_cap(tube, wi) ? tube.axis.s : nusselt_normalize(across(tube.axis, hit.distance * wi));
-    return radiance_of_tube(emission_profile, abs(dot(normal, wi)), -wi);
+    return radiance_of_tube(emission_profile, normal, -wi);
 }
 
 /// The radiance along a ray that meets the light.

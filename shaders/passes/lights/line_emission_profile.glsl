@@ -24,11 +24,13 @@ LineEmissionProfile local_emission_profile(uint profile, const Frame shading) {
 }
 
 /// The share of radiance that the spread of a lateral surface or a strip passes as a whole.
-/// \param along cosine of the direction with the light, \param cosine that with the normal of the light
-float whole_spread_share(uint profile, bool is_strip, float along, float cosine) {
+/// \param line its direction, \param away unit, from the light: in the frame of the axes
+float whole_spread_share(const LineEmissionProfile self, bool is_strip, vec3 line, vec3 away) {
+    uint profile = self.profile;
     float inverse_slope = emission_float(profile + kProfileInverseSlope);
     if (!(inverse_slope > 0.0)) return 1.0;
-    if (is_strip) return spread_share(profile, abs(cosine));
+    if (is_strip) return spread_share(profile, self.axes.normal, away);
+    float along = dot(line, away);
     float sine = sqrt(nusselt_max(1.0 - along * along, kNusseltTiny));
     float at = abs(along) / sine * inverse_slope * float(kTubeSpreadCells);
     if (!(at < float(kTubeSpreadCells))) return 0.0;
@@ -39,15 +41,14 @@ float whole_spread_share(uint profile, bool is_strip, float along, float cosine)
 }
 
 /// The radiance of a linear light or a strip over its mean.
-/// \param along direction of the line, \param away unit, from the light: in the frame of the axes
-float radiance_of_line(const LineEmissionProfile self, bool is_strip, vec3 along, vec3 away) {
-    return whole_spread_share(self.profile, is_strip, dot(along, away), dot(self.axes.normal, away)) *
-           relative_luminance(self.profile, self.axes, away);
+/// \param line its direction, \param away unit, from the light: in the frame of the axes
+float radiance_of_line(const LineEmissionProfile self, bool is_strip, vec3 line, vec3 away) {
+    return whole_spread_share(self, is_strip, line, away) * relative_luminance(self.profile, self.axes, away);
 }
 
-/// The radiance of a point of a tube over the mean. \param cosine of the direction with the normal there
-float radiance_of_tube(const LineEmissionProfile self, float cosine, vec3 away) {
-    return spread_share(self.profile, cosine) * relative_luminance(self.profile, self.axes, away);
+/// The radiance of a point of a tube over the mean. \param normal there, \param away unit, from the light
+float radiance_of_tube(const LineEmissionProfile self, vec3 normal, vec3 away) {
+    return spread_share(self.profile, normal, away) * relative_luminance(self.profile, self.axes, away);
 }
 
 #endif

@@ -113,10 +113,10 @@ void modulate(const LocalTube light, inout DirectLightSample s) {
         s.shadowed = relative_radiance(light.radiance, axis, s.p) * s.shadowed;
     if (kHasProfiledTubes && has_emission_profile(light.emission_profile)) {
         // With the normal of a cap, or of the lateral surface.
-        vec3 away = across(axis, s.p);
-        float lateral = -dot(away, s.wi) / sqrt(nusselt_max(dot(away, away), kNusseltTiny));
-        float cosine = meets_cap(light.shape, s.wi) ? abs(dot(axis.s, s.wi)) : lateral;
-        s.shadowed = radiance_of_tube(light.emission_profile, cosine, -s.wi) * s.shadowed;
+        vec3 from_axis = across(axis, s.p);
+        vec3 lateral = from_axis / sqrt(nusselt_max(dot(from_axis, from_axis), kNusseltTiny));
+        vec3 normal = meets_cap(light.shape, s.wi) ? axis.s : lateral;
+        s.shadowed = radiance_of_tube(light.emission_profile, normal, -s.wi) * s.shadowed;
     }
     if (light.is_open && meets_cap(light.shape, s.wi)) s.shadowed = vec3(0.0);
 }

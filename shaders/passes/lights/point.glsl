@@ -3,6 +3,7 @@
 /// Point lights as a shading point sees them, as in src/render_cpu/kernel/lights/point.cpp.
 
 #include "nusselt/core/trig.glsl"
+#include "nusselt/emission/octahedral_map.glsl"
 #include "passes/lights/luminaire.glsl"
 #include "passes/lights/one_direction.glsl"
 #include "passes/texture.glsl"
@@ -21,17 +22,6 @@ float cone_share(const PointLightRecord light, vec3 across, float along) {
     float x = along > 0.0 ? dot(across, across) / (1.0 + along) : 1.0 - along;
     float t = nusselt_max(nusselt_min((light.cone_end - x) * light.inverse_cone_width, 1.0), 0.0);
     return light.distribution == kQuarticCone ? (t * t) * (t * t) : t * t * (3.0 - 2.0 * t);
-}
-
-/// The square of an equal-area map of the sphere (Clarberg 2008), with v downwards.
-vec2 octahedral_place(vec3 w) {
-    float radius = sqrt(nusselt_max(1.0 - abs(w.z), 0.0));
-    float azimuth = (2.0 / kNusseltPi) * atan2_positive(abs(w.y), abs(w.x));
-    float y = radius * azimuth;
-    float x = radius - y;
-    float u = copysign(w.z < 0.0 ? 1.0 - y : x, w.x);
-    float v = copysign(w.z < 0.0 ? 1.0 - x : y, w.y);
-    return vec2(0.5 + 0.5 * u, 0.5 + 0.5 * v);
 }
 
 /// Azimuth and inclination in parts of the whole.
@@ -63,7 +53,7 @@ vec3 point_share(const PointLightRecord light, vec3 away) {
         return vec3(cone_share(light, away - w.z * to_vec(light.z_axis), w.z));
     if (kHasPointProfiles && light.distribution == kProfile) return vec3(intensity_in(light.first_luminaire_word, w));
     if (!kHasPointImages || light.distribution == kIsotropic) return vec3(1.0);
-    if (light.distribution == kOctahedralImage) return light_texel(light, octahedral_place(w));
+    if (light.distribution == kOctahedralImage) return light_texel(light, octahedral_coordinates(w));
     if (light.distribution == kLatitudeImage) return light_texel(light, latitude_place(w));
     return projection_share(light, w);
 }

@@ -21,12 +21,16 @@ ProfileAxes to_shading_space(const ProfileAxes world, const Frame frame) {
                        frame_to_local(frame, world.normal), frame_to_local(frame, world.hole));
 }
 
-/// The share of radiance that a spread passes. \param cosine of the direction with the normal
-float spread_share(uint profile, float cosine) {
+/// The share of radiance that a spread passes in a direction, to either side. The sine is the length of the part across the
+/// normal: taken from the cosine, it would cancel for narrow spreads.
+/// \param normal of the light at the point, \param away from it: unit, in the same frame
+float spread_share(uint profile, vec3 normal, vec3 away) {
     float inverse_slope = emission_float(profile + kProfileInverseSlope);
     if (!(inverse_slope > 0.0)) return 1.0;
-    float sine = sqrt(nusselt_max(1.0 - cosine * cosine, 0.0));
-    return nusselt_max(1.0 - sine / nusselt_max(cosine, kNusseltTiny) * inverse_slope, 0.0);
+    float along = dot(normal, away);
+    vec3 across = away - along * normal;
+    float slope = sqrt(dot(across, across)) / nusselt_max(abs(along), kNusseltTiny);
+    return nusselt_max(1.0 - slope * inverse_slope, 0.0);
 }
 
 /// The luminance of a profile without spread and honeycomb, over the mean. \param away unit, in the frame of the axes

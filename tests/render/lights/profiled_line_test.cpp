@@ -263,5 +263,64 @@ TEST(ProfiledLine, SpreadKeepsThePower) {
     }
 }
 
+/// A light along y, 1 m above a floor, which shines down through a spread.
+scene::Scene make_narrow(TubeModel model, double spread, double length) {
+    scene::Scene scene = make_floor(1);
+    const float end = static_cast<float>(0.5 * length);
+    LineLight light{.start = {0, -end, 1},
+                    .end = {0, end, 1},
+                    .radius = static_cast<float>(kRadius),
+                    .radiance = {1, 1, 1},
+                    .model = model,
+                    .normal = {0, 0, -1}};
+    scene::ProfiledShape shape = profile_line(light, {nullptr, spread, 0});
+    light.profile = 0;
+    scene.emission_profiles = std::move(shape.emissions);
+    add_line_light(scene, "light", light);
+    return scene;
+}
+
+float pixel_of(const scene::Scene& scene, int samples) {
+    return render_cpu::Renderer(scene, 1).render(make_settings(samples), base::choose_isa()).image.pixels[0];
+}
+
+constexpr double kNarrowSpreads[] = {scene::kNarrowestSpread, 0.1, 1};
+
+/// The sine of such angles vanishes in the rounding of the cosine.
+TEST(ProfiledLine, CamerasSeeNarrowSpreads) {
+    for (const double spread : kNarrowSpreads) {
+        const double slope = std::tan(0.5 * spread * kDegree);
+        const double mean = 1 - std::atan(slope) / slope;
+        for (const TubeModel model : {TubeModel::solid, TubeModel::strip}) {
+            scene::Scene scene = make_narrow(model, spread, 1);
+            for (const double part : {0.0, 0.3, 0.6, 0.9, 1.2}) {
+                set_camera(scene, {0, static_cast<float>(0.9 * part * slope), 0.1f}, {0, 0, 1}, {1, 0, 0},
+                           1e-6, 1, 1);
+                EXPECT_NEAR(pixel_of(scene, 1) * mean, std::max(1 - part, 0.0), 0.003)
+                    << spread << ' ' << part;
+            }
+        }
+    }
+}
+
+/// What a light that is longer than its bright part gives to the point below it. Bright are a disc of slopes on a cylinder and a
+/// part of a strip, which counts as a line.
+TEST(ProfiledLine, NarrowSpreadsLightTheFloor) {
+    for (const double spread : kNarrowSpreads) {
+        const double slope = std::tan(0.5 * spread * kDegree);
+        for (const TubeModel model : {TubeModel::solid, TubeModel::strip}) {
+            scene::Scene scene = make_narrow(model, spread, 3 * slope);
+            set_camera(scene, {0, -0.1f, 0.1f}, {0, 0, 0}, {0, 1, 0}, 1e-6, 1, 1);
+            const bool is_strip = model == TubeModel::strip;
+            const double expected = kRadius * (is_strip ? 6 / slope : kPi);
+            // Of the samples on the tube, few are in the bright band along it. They are stratified.
+            const int samples = is_strip ? 256 : 1 << 18;
+            const double tolerance = 0.003 + (is_strip ? 0 : 1 / (samples * slope));
+            const double found = pixel_of(scene, samples) * kPi / double{kFloorAlbedo};
+            EXPECT_NEAR(found / expected, 1, tolerance) << spread;
+        }
+    }
+}
+
 } // namespace
 } // namespace nusselt::render_test

@@ -1,5 +1,6 @@
 /// The noise of one sample without shadows, for lights whose radiance depends on the direction.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -136,10 +137,32 @@ TEST(WindowedNoise, OfPortals) {
     }
 }
 
-/// A light of 1 x 1 from points around its axis.
-template <class Technique, class Radiance>
+/// What the light of 1 x 1 in the plane z = 0 gives to a point, by the midpoint rule.
+/// \param reach slope beyond which the light is black, \param radiance function of the direction away from the light
+template <class Radiance>
+double irradiance(const Vector& point, const Vector& normal, double reach, const Radiance& radiance) {
+    constexpr int kSteps = 200;
+    const auto low = [&](double x) { return std::clamp(x - reach * point.z, 0.0, 1.0); };
+    const auto high = [&](double x) { return std::clamp(x + reach * point.z, 0.0, 1.0); };
+    const Vector begin{low(point.x), low(point.y), 0};
+    const Vector step = (1.0 / kSteps) * (Vector{high(point.x), high(point.y), 0} - begin);
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps; ++j) {
+            const Vector way = point - begin - Vector{(i + 0.5) * step.x, (j + 0.5) * step.y, 0};
+            const Vector away = normalize(way);
+            sum += radiance(away) * away.z * std::max(-dot(away, normal), 0.0) / dot(way, way);
+        }
+    }
+    return sum * step.x * step.y;
+}
+
+/// A light of 1 x 1 from points around its axis. Those in the dark do not count.
+/// \param expected irradiance, function of point and normal
+template <class Technique, class Radiance, class Expected>
 double profile_noise(const nusselt::RectifiedTable<float>& table, double distance,
-                     const std::vector<Vector>& directions, const Radiance& radiance) {
+                     const std::vector<Vector>& directions, const Radiance& radiance,
+                     const Expected& expected) {
     const auto vertices = rectangle_at<float>(0, 0, 1, 0, 1);
     const auto light = nusselt::make_profiled_light(upright<float>(), vertices.data(), 4, table);
     Noise noise;
@@ -150,8 +173,15 @@ double profile_noise(const nusselt::RectifiedTable<float>& table, double distanc
         const Technique technique(to_shading_space(light.plane, nusselt::broadcast<float>(point), frame),
                                   light);
         const Estimates estimates = estimates_of(technique, frame, 1500, radiance);
-        if (estimates.mean() > 0) noise.add(estimates);
+        const double mean = expected(point, nusselt::broadcast<double>(frame.n));
+        if (mean == 0) {
+            EXPECT_EQ(estimates.mean(), 0);
+            continue;
+        }
+        EXPECT_TRUE(estimates.agrees_with(mean, 0.01)) << estimates.mean() << ' ' << mean;
+        noise.add(estimates);
     }
+    EXPECT_GT(noise.views, 0);
     return noise.value();
 }
 
@@ -180,13 +210,17 @@ TEST(WindowedNoise, OfProfiles) {
     for (const Row& row : rows) {
         const auto stored = table_of<float>(row.map);
         const auto at_texel = [&](const auto& s, const auto&) { return row.map.at_position(s.at); };
+        const auto expected = [&](const Vector& point, const Vector& normal) {
+            return irradiance(point, normal, 1e9, row.map);
+        };
         for (std::size_t k = 0; k < row.distances.size(); ++k) {
+            const double distance = row.distances[k];
             const double noise =
-                profile_noise<Cells8>(stored.table, row.distances[k], row.directions, at_texel);
+                profile_noise<Cells8>(stored.table, distance, row.directions, at_texel, expected);
             const double coarse =
-                profile_noise<Cells4>(stored.table, row.distances[k], row.directions, at_texel);
+                profile_noise<Cells4>(stored.table, distance, row.directions, at_texel, expected);
             const double of_cosine =
-                profile_noise<CosineOnly>(stored.table, row.distances[k], row.directions, at_texel);
+                profile_noise<CosineOnly>(stored.table, distance, row.directions, at_texel, expected);
             report(row.name + std::string(" at ") + std::to_string(row.distances[k]) +
                        ", projected solid angle",
                    of_cosine);
@@ -208,11 +242,17 @@ TEST(WindowedNoise, OfSpread) {
         const auto measure = [&](const char* name, const auto& spread) {
             const StoredTable<float> stored([&](const auto& w) { return grey<float>(spread.share(w)); },
                                             spread.domain(), 128, 128, 2);
+            const auto of_sample = [&](const auto&, const nusselt::Vec3<float>& w) {
+                return static_cast<double>(spread.share(-w));
+            };
+            const auto expected = [&](const Vector& point, const Vector& normal) {
+                return irradiance(point, normal, double{slope}, [&](const Vector& away) {
+                    return static_cast<double>(spread.share(nusselt::broadcast<float>(away)));
+                });
+            };
             for (const double distance : {0.5, 1.0, 3.0}) {
-                const double noise = profile_noise<Cells8>(stored.table, distance, directions,
-                                                           [&](const auto&, const nusselt::Vec3<float>& w) {
-                                                               return static_cast<double>(spread.share(-w));
-                                                           });
+                const double noise =
+                    profile_noise<Cells8>(stored.table, distance, directions, of_sample, expected);
                 report(std::string(name) + " " + std::to_string(degrees) + " at " + std::to_string(distance),
                        noise);
                 // The wider the grid, the more of the noise is that of 8 x 8 cells close to the light.

@@ -263,11 +263,21 @@ TYPED_TEST(TexturedLineTest, FloatAgreesWithDouble) {
         const auto single = TypeParam::technique(light, profile);
         const auto exact = TypeParam::technique(line, named.profile);
         EXPECT_NEAR(single.measure() / exact.measure(), 1, 1e-4) << named.name;
+        // Positions are as precise as coordinates and directions to the line. That counts next to black parts, where densities grow from zero.
+        const double rounding =
+            4 * std::numeric_limits<float>::epsilon() * (1 + length(line.p0) / line.length);
         for (int k = 0; k < 100; ++k) {
             const float u = (static_cast<float>(k) + 0.5f) / 100;
             const auto s = single.sample(u);
             ASSERT_LT(length(nusselt::broadcast<double>(s.wi) - exact.sample(u).wi), 1e-4) << named.name;
-            ASSERT_NEAR(single.pdf(s.wi) / s.pdf, 1, 0.05) << named.name;
+            const auto at = static_cast<double>(s.at);
+            const auto [low, high] =
+                std::minmax({exact.pdf_at(std::max(at - rounding, 0.0)), exact.pdf_at(at),
+                             exact.pdf_at(std::min(at + rounding, 1.0))});
+            for (const float pdf : {s.pdf, single.pdf(s.wi)}) {
+                ASSERT_GT(pdf, (1 - 1e-4) * low) << named.name;
+                ASSERT_LT(pdf, (1 + 1e-4) * high) << named.name;
+            }
         }
     });
 }

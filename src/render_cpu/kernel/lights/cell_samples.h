@@ -9,8 +9,8 @@
 ///     Vec3<float> point(sample): where its shadow ray ends, in shading space [m];
 ///     float density(technique, sample): of one of these techniques at a sample of the other one.
 ///
-/// Techniques that have packs of shading points, such as TexturedPolygon and TexturedLine, are PackTechnique instead: then the other
-/// functions take and return packs, and `radiance` the sample only.
+/// Techniques that have packs of shading points, such as TexturedPolygon and TexturedLine, are PackTechnique instead: then
+/// the other functions take and return packs, and `radiance` the sample only.
 
 #include "render_cpu/kernel/paired_techniques.h"
 #include "render_cpu/kernel/single_lane.h"
@@ -54,9 +54,13 @@ public:
                 ::new (static_cast<void*>(bytes_ + lane * sizeof(Technique))) Technique(make(lane));
     }
 
+    // Copies of the bytes would not be techniques.
+    LaneTechniques(const LaneTechniques&) = delete;
+    LaneTechniques& operator=(const LaneTechniques&) = delete;
+
     bool has(int lane) const noexcept { return (present_ >> lane & 1u) != 0; }
     const Technique& operator[](int lane) const noexcept {
-        return *reinterpret_cast<const Technique*>(bytes_ + lane * sizeof(Technique));
+        return *std::launder(reinterpret_cast<const Technique*>(bytes_ + lane * sizeof(Technique)));
     }
 
     /// TexturedPolygon::unshadowed() of all lanes.

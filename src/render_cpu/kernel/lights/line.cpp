@@ -53,8 +53,7 @@ float relative_radiance(const render_cpu::LineRecord& record, const Cylinder<flo
     const Vec3<float> from_start = hit.distance * wi - tube.axis.p0;
     const Vec3<float> across = from_start - dot(from_start, tube.axis.s) * tube.axis.s;
     const Vec3<float> normal = meets_cap(tube, wi) ? tube.axis.s : normalize(across);
-    return spread_share(*record.directions, abs(dot(normal, wi))) *
-           luminance_of_line(*record.directions, -wi);
+    return spread_share(*record.directions, normal, wi) * luminance_of_line(*record.directions, -wi);
 }
 
 scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,

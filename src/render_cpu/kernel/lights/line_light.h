@@ -54,12 +54,12 @@ struct RelativeRadiance {
     }
 };
 
-/// The share of radiance that the spread of a lateral surface or a strip passes as a whole.
-/// \param along cosine of the direction with the light, \param cosine that with the normal of the light
-inline float whole_spread_share(const render_cpu::LineRecord& record, float along, float cosine) noexcept {
+/// The share of radiance that the spread of a lateral surface or a strip passes as a whole. \param away unit, in world space
+inline float whole_spread_share(const render_cpu::LineRecord& record, const Vec3<float>& away) noexcept {
     const render_cpu::LineProfileRecord& profile = *record.directions;
     if (!(profile.inverse_slope > 0)) return 1;
-    if (record.model == scene::TubeModel::strip) return spread_share(profile, abs(cosine));
+    if (record.model == scene::TubeModel::strip) return spread_share(profile, to_vec(profile.normal), away);
+    const float along = dot(to_vec(record.direction), away);
     const float sine = sqrt(max(1 - along * along, kTiny<float>));
     const float at = abs(along) / sine * profile.inverse_slope * render_cpu::kTubeSpreadCells;
     if (!(at < render_cpu::kTubeSpreadCells)) return 0;
@@ -77,10 +77,7 @@ inline float luminance_of_line(const render_cpu::LineProfileRecord& profile,
 
 /// The radiance of a light with a profile over its mean, as that of a linear light or a strip. \param away unit, in world space
 inline float radiance_of_line(const render_cpu::LineRecord& record, const Vec3<float>& away) noexcept {
-    const render_cpu::LineProfileRecord& profile = *record.directions;
-    return whole_spread_share(record, dot(to_vec(record.direction), away),
-                              dot(to_vec(profile.normal), away)) *
-           luminance_of_line(profile, away);
+    return whole_spread_share(record, away) * luminance_of_line(*record.directions, away);
 }
 
 /// Multiplies a sample by a function of lanes and of directions away from the light in world space.
@@ -176,12 +173,11 @@ private:
         // The normal of the lateral surface, or of a cap.
         const Vector from_start = sample.p - axis.p0;
         const Vector across = from_start - dot(from_start, axis.s) * axis.s;
-        const Real lateral = -dot(across, sample.wi) / sqrt(max(dot(across, across), Real(kTiny<float>)));
-        const Real cosines = select(meets_cap(*this, sample.wi), abs(dot(axis.s, sample.wi)), lateral);
-        alignas(4 * kLanes) float cosine[kLanes];
-        cosines.store(cosine);
-        const auto factor = [&](int lane, const Vec3<float>& away) {
-            return spread_share(*directions, cosine[lane]) * luminance_of_line(*directions, away);
+        const Vector lateral = Real(1) / sqrt(max(dot(across, across), Real(kTiny<float>))) * across;
+        const Vector normal = select(meets_cap(*this, sample.wi), axis.s, lateral);
+        sample.shadowed = spread_share(*directions, normal, sample.wi) * sample.shadowed;
+        const auto factor = [&](int /*lane*/, const Vec3<float>& away) {
+            return luminance_of_line(*directions, away);
         };
         modulate_by_direction(surface, factor, sample);
     }

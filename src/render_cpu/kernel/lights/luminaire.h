@@ -42,11 +42,17 @@ inline float intensity_in(const render_cpu::LuminaireTable& table, const Vec3<fl
     return (1 - t) * ((1 - s) * row[0] + s * row[1]) + t * ((1 - s) * next[0] + s * next[1]);
 }
 
-/// The share of radiance that a spread passes. \param cosine of the direction with the normal
-inline float spread_share(const render_cpu::ProfileRecord& profile, float cosine) noexcept {
-    if (!(profile.inverse_slope > 0)) return 1;
-    const float sine = sqrt(max(1 - cosine * cosine, 0.0f));
-    return max(1 - sine / max(cosine, kTiny<float>) * profile.inverse_slope, 0.0f);
+/// The share of radiance that a spread passes in a direction, to either side. The sine is the length of the part across the
+/// normal: taken from the cosine, it would cancel for narrow spreads.
+/// \param normal of the light at the point, \param away from it: unit, in the same frame
+template <class R>
+R spread_share(const render_cpu::ProfileRecord& profile, const Vec3<R>& normal,
+               const Vec3<R>& away) noexcept {
+    if (!(profile.inverse_slope > 0)) return R(1);
+    const R along = dot(normal, away);
+    const Vec3<R> across = away - along * normal;
+    const R slope = sqrt(dot(across, across)) / max(abs(along), R(kTiny<float>));
+    return max(R(1) - slope * R(profile.inverse_slope), R(0));
 }
 
 /// The luminance of a profile without spread, over the mean. \param w unit, in the frame of the profile

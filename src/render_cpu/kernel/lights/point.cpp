@@ -6,7 +6,8 @@
 #include "render_cpu/kernel/texture.h"
 #include "render_cpu/lights/point_records.h"
 
-#include <nusselt/core/trig.h>
+#include <nusselt/emission/latitude_longitude.h>
+#include <nusselt/emission/octahedral_map.h>
 
 #include <limits>
 
@@ -27,27 +28,6 @@ Real cone(const render_cpu::PointRecord& light, const Vector& across, const Real
     const Real t = max(min((Real(light.cone_end) - x) * Real(light.inverse_cone_width), Real(1)), Real(0));
     if (light.distribution == PointDistribution::quartic_cone) return (t * t) * (t * t);
     return t * t * (Real(3) - Real(2) * t);
-}
-
-/// The square of an equal-area map of the sphere (Clarberg 2008, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD,
-/// doi:10.1080/2151237X.2008.10129263), with v downwards.
-Vec2<Real> octahedral_place(const Vector& w) noexcept {
-    const Real radius = sqrt(max(Real(1) - abs(w.z), Real(0)));
-    const Real azimuth = Real(2 / kPi<float>) * atan2_positive(abs(w.y), abs(w.x));
-    const Real y = radius * azimuth;
-    const Real x = radius - y;
-    const auto is_below = w.z < Real(0);
-    const Real u = copysign(select(is_below, Real(1) - y, x), w.x);
-    const Real v = copysign(select(is_below, Real(1) - x, y), w.y);
-    return {Real(0.5f) + Real(0.5f) * u, Real(0.5f) + Real(0.5f) * v};
-}
-
-/// Azimuth and inclination in parts of the whole.
-Vec2<Real> latitude_place(const Vector& w) noexcept {
-    const Real half_turn = atan2_positive(abs(w.y), w.x);
-    const Real azimuth = select(w.y < Real(0), Real(2 * kPi<float>) - half_turn, half_turn);
-    const Real inclination = atan2_positive(sqrt(w.x * w.x + w.y * w.y), w.z);
-    return {Real(1 / (2 * kPi<float>)) * azimuth, Real(1 / kPi<float>) * inclination};
 }
 
 /// \param place with v downwards, while rows of textures are numbered upwards
@@ -87,9 +67,9 @@ Vector share(const render_cpu::KernelScene& scene, const render_cpu::PointRecord
     case PointDistribution::quartic_cone:
         return grey(cone(light, away - w.z * broadcast<Real>(to_vec(light.z_axis)), w.z));
     case PointDistribution::octahedral_image:
-        return texel(scene, light, octahedral_place(w), active);
+        return texel(scene, light, octahedral_coordinates(w), active);
     case PointDistribution::latitude_image:
-        return texel(scene, light, latitude_place(w), active);
+        return texel(scene, light, latitude_longitude_coordinates(w), active);
     case PointDistribution::projected_image:
         return projection(scene, light, w, active);
     case PointDistribution::profile:

@@ -57,16 +57,15 @@ inline ProfileAxes<Real> local_axes(const render_cpu::PolygonProfile& profile,
 /// The radiance in a direction over its mean. \param away unit, from the light, in the frame of the axes
 inline float relative_radiance(const render_cpu::PolygonProfile& profile, const ProfileAxes<float>& axes,
                                const Vec3<float>& away) noexcept {
-    const float along = dot(axes.normal, away);
-    const Vec3<float> across = away - along * axes.normal;
-    const float distance = max(abs(along), kTiny<float>);
-    float share = 1;
-    if (profile.inverse_slope > 0)
-        share = max(1 - sqrt(dot(across, across)) / distance * profile.inverse_slope, 0.0f);
+    float share = spread_share(profile, axes.normal, away);
     const scene::Float2& holes = profile.inverse_holes;
-    if (holes.x > 0 || holes.y > 0)
+    if (holes.x > 0 || holes.y > 0) {
+        const float along = dot(axes.normal, away);
+        const Vec3<float> across = away - along * axes.normal;
+        const float distance = max(abs(along), kTiny<float>);
         share *= max(1 - abs(dot(axes.holes, across)) / distance * holes.x, 0.0f) *
                  max(1 - abs(dot(cross(axes.normal, axes.holes), across)) / distance * holes.y, 0.0f);
+    }
     if (!(share > 0)) return 0;
     return share * relative_luminance(profile, {dot(axes.x, away), dot(axes.y, away), dot(axes.z, away)});
 }

@@ -87,7 +87,7 @@ void add_profiled_tube_integrals(render_cpu::LitPacket& packet, const render_cpu
     alignas(4 * kLanes) float on_cap[kLanes];
     for (int i = 0; i < kLanes; ++i) {
         const Vec3<float> direction = single_lane<Vec3<float>>(away, i);
-        on_cap[i] = spread_share(*record.directions, abs(dot(to_vec(record.direction), direction))) *
+        on_cap[i] = spread_share(*record.directions, to_vec(record.direction), direction) *
                     luminance_of_line(*record.directions, direction);
     }
     const Real cap = Real::load(on_cap);

@@ -10,7 +10,7 @@ namespace nusselt::scene {
 Emission without_profile(const Emission& emission);
 
 /// Adds the lights of a shape whose emission has a profile. Shapes with too many normals emit alike in all directions, with a
-/// warning; so does, in a warning, a shape that cannot emit all of the flux of its luminaire.
+/// warning. Another warning tells what a shape cannot emit of the flux of its luminaire.
 void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
                            PolygonPartition&& partition, BuiltShape& built);
 

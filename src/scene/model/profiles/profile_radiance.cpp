@@ -1,14 +1,18 @@
 #include "scene/model/profiles/profile_radiance.h"
 
+#include <nusselt/emission/profile_radiance.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace nusselt::scene {
 
+const double kGrazingCosine = nusselt::kGrazingCosine<double>;
+
 double flat_radiance(const IntensityProfile& profile, double area, const Double3& direction) {
     if (!(direction.z > 0)) return 0;
-    return profile.intensity(direction) / (kLumensPerWatt * area * std::max(direction.z, kGrazingCosine));
+    return profile_radiance(profile.intensity(direction), kLumensPerWatt, area, direction.z);
 }
 
 double share_lost_by_flat_light(const IntensityProfile& profile) {

@@ -12,9 +12,9 @@ namespace nusselt::scene {
 /// K [lm/W]: photometric files count in lumens, scenes in watts. 179 is what Radiance takes for white light.
 inline constexpr double kLumensPerWatt = 179;
 
-/// Cosines below this one count as this one, or else the radiance of luminaires that shine sideways would be
-/// infinite. It takes 1 % of the flux from a hemisphere of constant intensity, and 0.013 % from a Lambertian light.
-inline constexpr double kGrazingCosine = 0.02;
+/// Cosines below that of the library (nusselt/emission/profile_radiance.h) count as this one, which takes 0.013 % of the flux
+/// from a Lambertian light.
+extern const double kGrazingCosine;
 
 /// The radiance [W/(sr m^2)] of a flat light that emits to the side of +z.
 /// \param area       [m^2], positive
