@@ -1,17 +1,26 @@
 #pragma once
-/// All techniques, with the BRDFs and random numbers that they are used with. Packs of SIMD lanes are an extra, as is the
+/// All techniques, with the BRDFs, random numbers and descriptions of light that they are used with. Packs of SIMD lanes are an extra, as is the
 /// splitting of concave lights: include <nusselt/simd/pack.h> or <nusselt/geometry/split_convex.h> as well.
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/bsdf/phong.h>
+#include <nusselt/emission/environment_map_words.h>
+#include <nusselt/emission/latitude_longitude.h>
+#include <nusselt/emission/profile_radiance.h>
+#include <nusselt/emission/rectified_table.h>
+#include <nusselt/emission/spread.h>
+#include <nusselt/emission/textured_light_words.h>
 #include <nusselt/emission/window_variation.h>
+#include <nusselt/emission/windowed_light_words.h>
 #include <nusselt/estimate/backward_error.h>
 #include <nusselt/estimate/direct_light.h>
 #include <nusselt/estimate/line_light.h>
 #include <nusselt/estimate/reference_integrals.h>
 #include <nusselt/estimate/reflected_offsets.h>
+#include <nusselt/line_emission/line_nodes.h>
+#include <nusselt/line_emission/line_profile_words.h>
 #include <nusselt/line_samples/partial_shadow.h>
 #include <nusselt/line_samples/phong.h>
 #include <nusselt/line_samples/shading.h>
