@@ -171,7 +171,7 @@ class Page(unittest.TestCase):
         self.check_against_the_renderer("left-sampler=independent", 32, "web/scenes/floor.pbrt")
 
     def test_cylinders_agree_with_the_renderer(self):
-        self.check_against_the_renderer("scene=room&left-sampler=independent", 24, "scenes/room.pbrt")
+        self.check_against_the_renderer("scene=room&thick=1&left-sampler=independent", 24, "scenes/room.pbrt")
 
     def test_projected_solid_angle_agrees_with_the_renderer(self):
         self.check_against_the_renderer("left=projected&left-sampler=independent", 16, "web/scenes/floor.pbrt")
@@ -193,6 +193,8 @@ class Page(unittest.TestCase):
         self.open()
         for scene in ("floor", "room"):
             self.browser.choose(self.browser.find("#scene"), scene.capitalize())
+            if scene == "room":
+                self.browser.click(self.browser.find("#thick"))
             texts = self.browser.script("""
                 return [...document.getElementById("left").options].map(option => [option.value,
                     window.nusselt.shaderText({ technique: option.value, heuristic: "balance", sampler: "sobol" })]);""")

@@ -94,6 +94,7 @@ export function makeControls(actions: Actions): Controls {
     const accumulates = checkbox("Add up frames", "accumulate", value => change(state => { state.accumulates = value; }));
     const smooths = checkbox("Smooth edges", "smooth", value => change(state => { state.smoothsEdges = value; }));
     const shadows = checkbox("Shadows", "shadows", value => change(state => { state.shadows = value; }));
+    const thick = checkbox("Thick tubes", "thick", value => change(state => { state.thickTubes = value; }));
     const reference = checkbox("Reference", "reference", value => change(state => {
         state.reference = value;
         if (!value) state.shows = "image";
@@ -120,7 +121,7 @@ export function makeControls(actions: Actions): Controls {
     let lamps: Control<LampState>[] = [];
     const node = element("section", { class: "panel", "aria-label": "Controls" },
         element("div", { class: "sides" }, left.node, right.node),
-        element("div", { class: "row" }, compares.node, accumulates.node, smooths.node, shadows.node, reference.node, shows.node),
+        element("div", { class: "row" }, compares.node, accumulates.node, smooths.node, shadows.node, thick.node, reference.node, shows.node),
         element("div", { class: "row" }, samples.node, roughness.node, exposure.node),
         lampFields,
         element("div", { class: "row" }, scene.node, size.node, reset, link, message));
@@ -138,6 +139,7 @@ export function makeControls(actions: Actions): Controls {
             accumulates.show(state.accumulates);
             smooths.show(state.smoothsEdges);
             shadows.show(state.shadows);
+            thick.show(state.thickTubes);
             reference.show(state.reference);
             shows.show(state.shows === "error");
             roughness.show(state.roughness ?? floorRoughness);

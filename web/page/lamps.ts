@@ -55,5 +55,10 @@ export function changedScene(scene: Scene, lamps: readonly Lamp[], states: reado
     return { ...scene, polygons, tubes, materials };
 }
 
+/// The scene with lines in place of cylinders.
+export function withLines(scene: Scene): Scene {
+    return { ...scene, tubes: scene.tubes.map(tube => ({ ...tube, isCylinder: false })) };
+}
+
 /// The material of the first shape, which the slider of the roughness changes.
 export const floorOf = (scene: Scene): number => scene.polygons[0].material;

@@ -4,7 +4,7 @@ import { Scene, View, readScene } from "../library/pbrt";
 import { techniqueOf } from "../library/techniques";
 import { fitHeuristic, makeControls, makeNumbers } from "./controls";
 import { element } from "./dom";
-import { Lamp, changedScene, floorOf, lampsOf } from "./lamps";
+import { Lamp, changedScene, floorOf, lampsOf, withLines } from "./lamps";
 import { Errors, ImageName, ImageSettings, Renderer } from "./renderer";
 import { sceneOf } from "./scenes";
 import { makeStage } from "./stage";
@@ -146,11 +146,13 @@ class Page {
         const { state, renderer } = this;
         const changed = (...keys: (keyof State)[]) =>
             before === null || keys.some(key => JSON.stringify(before[key]) !== JSON.stringify(state[key]));
-        if (changed("scene", "lamps", "roughness"))
-            renderer.setScene(changedScene(this.scene, this.lamps, state.lamps, state.roughness));
+        if (changed("scene", "lamps", "roughness", "thickTubes")) {
+            const scene = changedScene(this.scene, this.lamps, state.lamps, state.roughness);
+            renderer.setScene(state.thickTubes ? scene : withLines(scene));
+        }
         if (changed("scene", "camera")) renderer.setView(this.view());
         this.resize();
-        if (changed("scene", "lamps", "roughness", "camera", "shadows", "accumulates", "smoothsEdges", "mostFrames")) this.clear();
+        if (changed("scene", "lamps", "roughness", "camera", "shadows", "thickTubes", "accumulates", "smoothsEdges", "mostFrames")) this.clear();
         for (const name of ["left", "right"] as const) if (changed(name, "samples")) renderer.clear([name]);
         if (changed("compares")) renderer.clear(["right"]);
         this.stage.show(state, [techniqueOf(state.left.technique).label, techniqueOf(state.right.technique).label]);
@@ -209,7 +211,7 @@ class Page {
     private add(images: readonly [ImageName, ImageSettings][]): void {
         const { state, renderer } = this;
         for (const [name, settings] of images) {
-            const key = [settings.technique, settings.sampler, state.scene].join();
+            const key = [settings.technique, settings.sampler, state.scene, state.thickTubes].join();
             if (!this.warm.has(key)) {
                 if (this.isCompiling || !renderer.isReady(settings)) continue;
                 this.isCompiling = true;

@@ -38,6 +38,8 @@ export interface State {
     /// How many add up at most. Images are then functions of the state; only links change it.
     mostFrames: number;
     shadows: boolean;
+    /// Whether tubes of scenes that are cylinders remain so; else, they are lines, whose programs compile much faster.
+    thickTubes: boolean;
     /// Whether a reference adds up meanwhile.
     reference: boolean;
     shows: "image" | "error";
@@ -61,7 +63,7 @@ export function initialState(): State {
         scene: "floor",
         left: { technique: "area", heuristic: "clamped_optimal", sampler: "sobol" },
         right: { technique: "projected", heuristic: "clamped_optimal", sampler: "sobol" },
-        compares: true, wipe: 0.5, samples: 1, accumulates: true, smoothsEdges: true, mostFrames: 4096, shadows: true, reference: true, shows: "image",
+        compares: true, wipe: 0.5, samples: 1, accumulates: true, smoothsEdges: true, mostFrames: 4096, shadows: true, thickTubes: false, reference: true, shows: "image",
         roughness: null, exposure: 0, width: 0, camera: null, lamps: [],
     };
 }
@@ -139,6 +141,7 @@ const fields: Record<string, Field> = {
     smooth: flag(state => state.smoothsEdges, (state, value) => { state.smoothsEdges = value; }),
     frames: number(1, 65536, state => state.mostFrames, (state, value) => { state.mostFrames = Math.round(value); }),
     shadows: flag(state => state.shadows, (state, value) => { state.shadows = value; }),
+    thick: flag(state => state.thickTubes, (state, value) => { state.thickTubes = value; }),
     reference: flag(state => state.reference, (state, value) => { state.reference = value; }),
     show: choice(["image", "error"] as const, state => state.shows, (state, value) => { state.shows = value; }),
     roughness: {
