@@ -10,6 +10,9 @@ inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
 /// Of the emission of a light, in the unit of its quantity. Sums over many samples of far brighter lights would overflow.
 inline constexpr double kMaxRadiance = 1e30;
 
+/// Of spots [degrees]. Directions in single precision are 3e-6 degrees apart: hardly one of them lies within narrower cones.
+inline constexpr double kNarrowestCone = 1e-6;
+
 /// Of Phong lobes. Single precision does not resolve directions in much narrower ones.
 inline constexpr double kLargestPhongExponent = 1e6;
 

@@ -1,5 +1,6 @@
 #include "scene/rig/light_image.h"
 
+#include "scene/build/lights/emission.h"
 #include "scene/build/lights/textured_light.h"
 #include "scene/build/lights/textured_tube.h"
 #include "scene/colour/colour_space.h"
@@ -23,15 +24,6 @@ Double3 texel_radiance(const GivenImage& given, double brightness_before, double
     if (given.scale) return to_double(*given.scale);
     const double factor = brightness_of_image > 0 ? brightness_before / brightness_of_image : 0;
     return {factor, factor, factor};
-}
-
-Defect find_bright_texel(const Double3& scale, const std::vector<Float3>& texels) {
-    Float3 most = {0, 0, 0};
-    for (const Float3& t : texels)
-        most = {std::max(most.x, t.x), std::max(most.y, t.y), std::max(most.z, t.z)};
-    const Double3 radiance = per_channel_product(scale, to_double(most));
-    if (std::max({radiance.x, radiance.y, radiance.z}) <= double{kMaxRadiance}) return std::nullopt;
-    return FieldDefect{"image_scale", "texels would have a radiance above 1e+30"};
 }
 
 /// Texture coordinates of a polygon in the whole image.
@@ -73,7 +65,6 @@ Defect change_polygons(const GivenImage& given, Scene& scene, std::vector<Polygo
         of_image += area(light) * luminance(to_double(shown.back().emission.mean));
     }
     const Double3 scale = texel_radiance(given, before, of_image);
-    if (Defect defect = find_bright_texel(scale, given.image->texels)) return defect;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         lights[i].radiance = to_float(per_channel_product(scale, to_double(shown[i].emission.mean)));
         lights[i].texture = -1;
@@ -88,7 +79,6 @@ Defect change_line(const GivenImage& given, Scene& scene, LineLight& light) {
     TexturedEmission shown = show_rows(*given.image, light);
     const Double3 scale =
         texel_radiance(given, luminance(to_double(light.radiance)), luminance(to_double(shown.mean)));
-    if (Defect defect = find_bright_texel(scale, given.image->texels)) return defect;
     light.radiance = to_float(per_channel_product(scale, to_double(shown.mean)));
     light.texture = -1;
     if (shown.texture == nullptr) return std::nullopt;
@@ -100,7 +90,6 @@ Defect change_line(const GivenImage& given, Scene& scene, LineLight& light) {
 Defect change_map(const GivenImage& given, Scene& scene, EnvironmentLight& light) {
     const Double3 scale =
         texel_radiance(given, luminance(to_double(light.radiance)), luminance(to_double(given.map->mean)));
-    if (Defect defect = find_bright_texel(scale, given.map->texels)) return defect;
     light.radiance = to_float(per_channel_product(scale, to_double(given.map->mean)));
     light.map = static_cast<std::int32_t>(scene.environment_maps.size());
     scene.environment_maps.push_back(given.map);
@@ -160,6 +149,30 @@ std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, E
         if (Defect defect = change_line(given, scene, line)) return defect;
     if (is_black(light)) return FieldDefect{"image", "the light shows nothing but black of the image"};
     return std::nullopt;
+}
+
+bool has_too_bright_texels(const Scene& scene, const EditableLight& light) {
+    const auto is_too_bright = [](const Float3& radiance, const Float3& mean,
+                                  const std::vector<Float3>& texels) {
+        const Float3 most = brightest_radiance(radiance, mean, texels);
+        return !(std::max({most.x, most.y, most.z}) <= kMaxRadiance);
+    };
+    const auto shows_too_bright = [&](const auto& part) {
+        if (part.texture < 0) return false;
+        const TexturedEmission& emission = scene.emission_textures[static_cast<std::size_t>(part.texture)];
+        return is_too_bright(part.radiance, emission.mean, emission.texture->texels);
+    };
+    const auto has_too_bright_map = [&](const EnvironmentLight& part) {
+        if (part.map < 0) return false;
+        const EnvironmentMapTexels& map = *scene.environment_maps[static_cast<std::size_t>(part.map)];
+        return is_too_bright(part.radiance, map.mean, map.texels);
+    };
+    const auto& polygons = light.parts.of<PolygonLight>();
+    const auto& lines = light.parts.of<LineLight>();
+    const auto& environments = light.parts.of<EnvironmentLight>();
+    return std::any_of(polygons.begin(), polygons.end(), shows_too_bright) ||
+           std::any_of(lines.begin(), lines.end(), shows_too_bright) ||
+           std::any_of(environments.begin(), environments.end(), has_too_bright_map);
 }
 
 std::optional<FieldDefect> turn_map(const Rotation& rotation, EditableLight& light) {

@@ -19,6 +19,9 @@ std::string map_path(const Scene& scene, const EditableLight& light);
 /// \returns what does not fit the light; nothing if all is well
 std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light);
 
+/// Whether a texel of its images or maps makes a light brighter than kMaxRadiance.
+bool has_too_bright_texels(const Scene& scene, const EditableLight& light);
+
 /// Turns the map of an environment about the origin; its portal stays.
 std::optional<FieldDefect> turn_map(const Rotation& rotation, EditableLight& light);
 

@@ -364,6 +364,11 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
         return c;
     };
     change_values(light, check);
+    const bool is_changed = changes.emission || changes.kelvin || changes.scale_radiance || changes.power ||
+                            changes.image.image != nullptr || changes.image.map != nullptr;
+    if (is_changed && has_too_bright_texels(scene_, light))
+        fail(entry.where, "light " + in_quotes(light.name) + " would have texels with a radiance above " +
+                              to_text(kMaxRadiance));
 }
 
 } // namespace

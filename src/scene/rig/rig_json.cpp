@@ -2,6 +2,7 @@
 
 #include "scene/input/json_node.h"
 #include "scene/input/message.h"
+#include "scene/model/limits.h"
 #include "scene/model/polygon.h"
 #include "scene/model/profiles/emission_profile.h"
 #include "scene/rig/light_edit.h"
@@ -136,9 +137,6 @@ Lights read_strip(const JsonNode& node) {
     return only(strip);
 }
 
-/// Narrower spots have no effect on single pixels; the numbers of their falloff would be denormal.
-constexpr double kMinConeAngle = 1e-6;
-
 Lights read_point_light(const JsonNode& node) {
     PointLight light;
     light.position = read_point(node);
@@ -151,7 +149,7 @@ Lights read_spot(const JsonNode& node) {
     light.distribution = PointDistribution::smooth_cone;
     light.position = read_point(node.at("position"));
     light.z_axis = to_float(read_direction(node.at("direction")));
-    light.cone_angle = static_cast<float>(node.at("degrees").number(kMinConeAngle, 180));
+    light.cone_angle = static_cast<float>(node.at("degrees").number(kNarrowestCone, 180));
     const auto full = node.find("full_degrees");
     light.full_angle = full ? static_cast<float>(full->number(0, static_cast<double>(light.cone_angle)))
                             : std::max(light.cone_angle - 5, 0.0f);

@@ -67,6 +67,15 @@ TEST_F(EmissionSide, SurfacesTurnTheirNormalsToo) {
 
 class Emitters : public SceneTest {};
 
+/// Radii have no sign.
+TEST(LineLights, ReflectionsKeepTheRadius) {
+    LineLight light{.start = {0, 0, 0}, .end = {1, 0, 0}, .radius = 0.5f};
+    LightKind<LineLight>::transform(light, scaling({-2, 2, 2}));
+    EXPECT_NEAR(light.radius, 1, 1e-6f);
+    EXPECT_EQ(light.end.x, -2);
+    EXPECT_TRUE(LightKind<LineLight>::is_valid(light));
+}
+
 TEST_F(Emitters, RadianceIsColourTimesScale) {
     const Scene scene = load(
         "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 10 \"bool twosided\" true\n" +

@@ -205,6 +205,15 @@ TEST_F(Environments, HostileImages) {
     const Scene black = light("LightSource \"infinite\" \"string filename\" \"black.pfm\"");
     EXPECT_TRUE(black.lights.of<EnvironmentLight>().empty());
     EXPECT_EQ(warning(black), "scene.pbrt:3: environment: left out because its image is black");
+    // The illuminance brightens one texel of 256 beyond the limit, but not the mean.
+    write_picture("dot.pfm", 16, 16, [](int i, int j) {
+        const float value = i == 8 && j == 8 ? 1.0f : 0.0f;
+        return Float3{value, value, value};
+    });
+    const std::string dot = "LightSource \"infinite\" \"string filename\" \"dot.pfm\" \"float illuminance\" ";
+    EXPECT_EQ(light(dot + "1e10").lights.of<EnvironmentLight>().size(), 1u);
+    EXPECT_TRUE(error("Camera \"perspective\"\nWorldBegin\n" + dot + "5e29")
+                    .starts_with("scene.pbrt:3: environment: radiance must be from 0 to 1e+30, found "));
     write_picture("odd.pfm", 5, 3, [](int, int) { return Float3{1, 2, 3}; });
     const Scene odd = light("LightSource \"infinite\" \"string filename\" \"odd.pfm\"");
     expect_near(environment(odd).radiance, {1, 2, 3}, 1e-5f);

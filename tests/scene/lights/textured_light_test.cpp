@@ -212,6 +212,52 @@ TEST_F(ImageEmission, ManyPolygonsAreTexturedUpToALimit) {
               "first 1024 emit the mean of their part of it");
 }
 
+/// The left half of the image is black.
+TEST_F(ImageEmission, PolygonsThatShowOnlyBlackAreSurfaces) {
+    image::Image image = image::make_image(8, 4);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = i / 3 % 8 < 4 ? 0.0f : 1.0f;
+    image::write_image(folder_ / "ramp.pfm", image);
+    for (const char* const emission : {"", "\"float power\" 10"}) {
+        const Scene black = light(mesh("0 0 0.3 0 0.3 1 0 1"), emission);
+        EXPECT_TRUE(black.lights.empty());
+        EXPECT_TRUE(black.emitters.empty());
+        EXPECT_TRUE(black.emission_textures.empty());
+        ASSERT_EQ(black.triangles.size(), 2u);
+        EXPECT_EQ(black.triangle_light, (std::vector<std::int32_t>{-1, -1}));
+        EXPECT_EQ(warning(black),
+                  "scene.pbrt:4: shape \"trianglemesh\": it emits no light because its part of the "
+                  "image is black");
+
+        // The second triangle has a map of its own, to the bright half.
+        const Scene half =
+            light("Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 2 1 0 0 0 0 2 1 0 0 1 0] "
+                  "\"integer indices\" [0 1 2 3 4 5] \"point2 uv\" [0 0 0.3 0 0.3 1 1 0 0.7 1 1 1]",
+                  emission);
+        ASSERT_EQ(polygons(half).size(), 1u);
+        EXPECT_EQ(half.triangle_light, (std::vector<std::int32_t>{-1, 0}));
+        EXPECT_EQ(polygons(half)[0].texture, 0);
+        EXPECT_EQ(half.emission_textures.size(), 1u);
+        EXPECT_NEAR(polygons(half)[0].radiance.x, *emission == '\0' ? 1 : 10 / 3.14159265, 1e-5);
+        EXPECT_EQ(warning(half),
+                  "scene.pbrt:4: shape \"trianglemesh\": 1 of 2 polygons emit no light because their "
+                  "part of the image is black");
+    }
+}
+
+/// The mean is within the limit, but not the brightest texel, which is twice as large.
+TEST_F(ImageEmission, TexelsAreWithinTheLimit) {
+    const std::string text =
+        "Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
+        "\"ramp.pfm\" \"float scale\" ";
+    const std::string message = "AreaLightSource: radiance must be from 0 to 1e+30, found ";
+    EXPECT_NE(error(text + "2e29\n" + kQuad).find(message + "1.4"), std::string::npos);
+    // The part that a light shows counts.
+    EXPECT_EQ(load(text + "2e29\n" + mesh("0 0 0.4 0 0.4 1 0 1")).warnings.size(), 0u);
+    const std::string tube = "\nShape \"line\" \"point3 P\" [0 0 0 1 0 0] \"float radius\" 0.1";
+    write_ramp("ramp.pfm", 2, 8);
+    EXPECT_NE(error(text + "2e29" + tube).find(message + "1.4"), std::string::npos);
+}
+
 TEST_F(ImageEmission, HostileImages) {
     EXPECT_EQ(error("Camera \"perspective\"\nWorldBegin\nAreaLightSource \"diffuse\" \"string filename\" "
                     "\"none.png\"\n" +

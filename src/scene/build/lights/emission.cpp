@@ -5,6 +5,7 @@
 #include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace nusselt::scene {
@@ -20,6 +21,13 @@ void check_emission(const Float3& value, const EmissionQuantity& quantity, std::
 
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location) {
     check_emission(radiance, kRadiance, subject, location);
+}
+
+Float3 brightest_radiance(const Float3& radiance, const Float3& mean, const std::vector<Float3>& texels) {
+    Float3 most = {0, 0, 0};
+    for (const Float3& t : texels)
+        most = {std::max(most.x, t.x), std::max(most.y, t.y), std::max(most.z, t.z)};
+    return per_channel_product(per_channel_ratio(radiance, mean), most);
 }
 
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject,

@@ -147,9 +147,6 @@ bool finish(const LightSourceDescription& source, const std::vector<Texture>& te
         auto map =
             std::make_shared<EnvironmentMapTexels>(source.sky ? make_sky_map(*source.sky) : of_image());
         irradiance = irradiance_of(*map);
-        for (const Float3& texel : map->texels)
-            check_emission(per_channel_product(light.radiance, texel), kRadiance, subject_of(source),
-                           source.origin);
         light.radiance = per_channel_product(light.radiance, map->mean);
         light.map = static_cast<std::int32_t>(shapes.environment_maps.size());
         shapes.environment_maps.push_back(std::move(map));
@@ -157,7 +154,12 @@ bool finish(const LightSourceDescription& source, const std::vector<Texture>& te
     if (is_black(light.radiance)) return false;
     if (const double brightness = luminance(irradiance); source.irradiance && brightness > 0)
         light.radiance = to_float((*source.irradiance / brightness) * to_double(light.radiance));
-    check_emission(light.radiance, kRadiance, subject_of(source), source.origin);
+    check_radiance(light.radiance, subject_of(source), source.origin);
+    if (light.map >= 0) {
+        const EnvironmentMapTexels& map = *shapes.environment_maps.back();
+        check_radiance(brightest_radiance(light.radiance, map.mean, map.texels), subject_of(source),
+                       source.origin);
+    }
     return true;
 }
 

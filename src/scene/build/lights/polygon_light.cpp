@@ -40,7 +40,8 @@ void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& word
     std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();
     lights.reserve(partition.polygons.size());
     for (PolygonVertices& polygon : partition.polygons)
-        lights.push_back({0, -1, std::move(polygon), radiance, shape.emission.two_sided});
+        lights.push_back(
+            {.vertices = std::move(polygon), .radiance = radiance, .two_sided = shape.emission.two_sided});
 }
 
 } // namespace

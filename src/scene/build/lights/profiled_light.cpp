@@ -80,7 +80,7 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
                            PolygonPartition&& partition, BuiltShape& built) {
     std::vector<PolygonLight> lights;
     for (PolygonVertices& polygon : partition.polygons)
-        lights.push_back({0, -1, std::move(polygon), {}, shape.emission.two_sided});
+        lights.push_back({.vertices = std::move(polygon), .two_sided = shape.emission.two_sided});
     const Float3& first = built.positions[built.triangles.front().vertex[0]];
     std::optional<ProfiledShape> profiled =
         profile_shape(lights, edge_from(lights.front(), first), *shape.emission.profile);

@@ -154,6 +154,19 @@ public:
         }
     }
 
+    /// Warns of polygons that show nothing but black, which are surfaces without light. \returns whether all of them are
+    bool warn_if_black() const {
+        if (black_ == 0) return false;
+        const std::string all = std::to_string(black_ + lights_.size());
+        built_.warnings.add(
+            shape_.origin, "black images of lights",
+            subject_of(shape_) + ": " +
+                (lights_.empty() ? "it emits no light because its part of the image is black"
+                                 : std::to_string(black_) + " of " + all +
+                                       " polygons emit no light because their part of the image is black"));
+        return lights_.empty();
+    }
+
     /// The area of all lights, each times the luminance of its mean texel [m^2].
     double bright_area() const {
         double sum = 0;
@@ -204,17 +217,23 @@ private:
 
     void add_light(PolygonVertices&& vertices, const TextureMap& map,
                    const std::vector<std::uint32_t>& triangles) {
-        for (const std::uint32_t triangle : triangles)
-            built_.triangle_light[triangle] = static_cast<std::int32_t>(lights_.size());
         std::vector<TexturePoint> corners;
         for (const Float3& vertex : vertices) corners.push_back(map(vertex));
-        lights_.push_back({0, -1, std::move(vertices), {0, 0, 0}, shape_.emission.two_sided});
-        set_texture(corners, lights_.back());
+        ShownImage shown = show_image(image_, corners);
+        const bool is_dark = is_black(shown.emission.mean);
+        for (const std::uint32_t triangle : triangles)
+            built_.triangle_light[triangle] = is_dark ? -1 : static_cast<std::int32_t>(lights_.size());
+        if (is_dark) {
+            ++black_;
+            return;
+        }
+        lights_.push_back({.vertices = std::move(vertices),
+                           .radiance = shown.emission.mean,
+                           .two_sided = shape_.emission.two_sided});
+        set_texture(std::move(shown), lights_.back());
     }
 
-    void set_texture(const std::vector<TexturePoint>& corners, PolygonLight& light) {
-        ShownImage shown = show_image(image_, corners);
-        light.radiance = shown.emission.mean;
+    void set_texture(ShownImage&& shown, PolygonLight& light) {
         if (shown.is_far)
             built_.warnings.add(shape_.origin, "far texture coordinates",
                                 subject_of(shape_) +
@@ -230,6 +249,7 @@ private:
     BuiltShape& built_;
     std::vector<PolygonLight> lights_;
     std::size_t textured_ = 0;
+    std::size_t black_ = 0; ///< polygons that are no lights
 };
 
 } // namespace
@@ -272,10 +292,16 @@ void add_textured_polygons(const ShapeDescription& shape, const FormatWords& wor
                            PolygonPartition&& partition, BuiltShape& built) {
     TexturedPolygons polygons(shape, built);
     polygons.add(std::move(partition));
+    if (polygons.warn_if_black()) return;
     const Float3 radiance = radiance_of(shape.emission, polygons.bright_area(), words.emission, shape.origin);
-    for (const Float3& texel : shape.emission.texture->texels)
-        check_radiance(per_channel_product(radiance, texel), words.emission, shape.origin);
     polygons.finish(radiance);
+    for (const PolygonLight& light : built.lights.of<PolygonLight>()) {
+        check_radiance(light.radiance, words.emission, shape.origin);
+        if (light.texture < 0) continue;
+        const TexturedEmission& emission = built.emission_textures[static_cast<std::size_t>(light.texture)];
+        check_radiance(brightest_radiance(light.radiance, emission.mean, emission.texture->texels),
+                       words.emission, shape.origin);
+    }
 }
 
 } // namespace nusselt::scene

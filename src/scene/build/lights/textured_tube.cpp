@@ -104,8 +104,8 @@ void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, 
     light.radiance = per_channel_product(radiance, mean);
     check_radiance(light.radiance, words.emission, shape.origin);
     if (shown.texture != nullptr) {
-        for (const Float3& texel : shown.texture->texels)
-            check_radiance(per_channel_product(radiance, texel), words.emission, shape.origin);
+        check_radiance(brightest_radiance(light.radiance, shown.mean, shown.texture->texels), words.emission,
+                       shape.origin);
         light.texture = static_cast<std::int32_t>(built.emission_textures.size());
         built.emission_textures.push_back(shown);
     }

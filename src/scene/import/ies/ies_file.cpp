@@ -279,13 +279,15 @@ private:
         file_.candelas.reserve(file_.horizontal.size() * file_.vertical.size());
         for (const double h : file_.horizontal)
             for (const double v : file_.vertical) {
-                const std::string place = "candelas at vertical " + to_text(v) + ", horizontal " + to_text(h);
+                const auto place = [&] {
+                    return "candelas at vertical " + to_text(v) + ", horizontal " + to_text(h);
+                };
                 const double candelas = numbers.number(place);
                 if (candelas < 0)
-                    numbers.fail("the " + place + " must not be negative, found " + to_text(candelas));
+                    numbers.fail("the " + place() + " must not be negative, found " + to_text(candelas));
                 const double product = candelas * file_.multiplier;
                 if (!(product <= kMaxCandelas))
-                    numbers.fail("the " + place + " must not exceed " + to_text(kMaxCandelas) +
+                    numbers.fail("the " + place() + " must not exceed " + to_text(kMaxCandelas) +
                                  " with all factors, found " + to_text(candelas) + " times " +
                                  to_text(file_.multiplier));
                 file_.candelas.push_back(product);

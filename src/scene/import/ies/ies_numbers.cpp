@@ -18,15 +18,6 @@ std::string ordinal(std::string_view what, std::size_t index, std::size_t count)
     return std::string(what) + ' ' + std::to_string(index + 1) + " of " + std::to_string(count);
 }
 
-/// NaN if the word is not a finite number.
-double parsed(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool is_number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
-    return is_number ? value : std::nan("");
-}
-
 } // namespace
 
 /// The next word, or nothing at the end.
@@ -42,13 +33,21 @@ std::string_view IesNumbers::word() {
     return result;
 }
 
+double IesNumbers::parsed(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
+    return is_number ? value : std::nan("");
+}
+
 double IesNumbers::number(std::string_view what) {
-    const std::string_view text = word();
-    if (text.empty()) fail("the file ends before the " + std::string(what));
-    const double value = parsed(text);
-    if (std::isnan(value))
-        fail("the " + std::string(what) + " must be a finite number, found '" + shortened(text) + "'");
-    return value;
+    return number([&] { return std::string(what); });
+}
+
+void IesNumbers::fail_to_parse(std::string_view word, const std::string& what) const {
+    if (word.empty()) fail("the file ends before the " + what);
+    fail("the " + what + " must be a finite number, found '" + shortened(word) + "'");
 }
 
 double IesNumbers::positive(std::string_view what) {
@@ -69,7 +68,7 @@ std::size_t IesNumbers::whole(std::string_view what, std::size_t least, std::siz
 std::vector<double> IesNumbers::list(std::string_view what, std::size_t count) {
     std::vector<double> result;
     result.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) result.push_back(number(ordinal(what, i, count)));
+    for (std::size_t i = 0; i < count; ++i) result.push_back(number([&] { return ordinal(what, i, count); }));
     return result;
 }
 
@@ -78,13 +77,13 @@ std::vector<double> IesNumbers::increasing(std::string_view what, std::size_t co
     std::vector<double> result;
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::string name = ordinal(what, i, count);
+        const auto name = [&] { return ordinal(what, i, count); };
         const double angle = number(name);
         if (!(angle >= least && angle <= most))
-            fail("the " + name + " must be from " + to_text(least) + " to " + to_text(most) + ", found " +
+            fail("the " + name() + " must be from " + to_text(least) + " to " + to_text(most) + ", found " +
                  to_text(angle));
         if (i > 0 && !(angle - result.back() >= kSmallestStep))
-            fail("the " + name + " must exceed the one before, " + to_text(result.back()) + ", by " +
+            fail("the " + name() + " must exceed the one before, " + to_text(result.back()) + ", by " +
                  to_text(kSmallestStep) + " or more, found " + to_text(angle));
         result.push_back(angle);
     }

@@ -3,6 +3,8 @@
 
 #include "scene/input/diagnostics.h"
 
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,6 +24,14 @@ public:
 
     /// Throws SceneError if the next word is missing or is not a finite number.
     double number(std::string_view what);
+    /// The same for one of many numbers. \param what tells what it is; called for messages only
+    template <std::invocable What>
+    double number(const What& what) {
+        const std::string_view text = word();
+        const double value = parsed(text);
+        if (std::isnan(value)) fail_to_parse(text, what());
+        return value;
+    }
     /// The same for a number above zero.
     double positive(std::string_view what);
     /// A whole number, which may be written "3.0". Throws SceneError also if it is not in [least, most].
@@ -42,6 +52,9 @@ public:
 
 private:
     std::string_view word();
+    /// NaN if the word is not a finite number.
+    static double parsed(std::string_view word);
+    [[noreturn]] void fail_to_parse(std::string_view word, const std::string& what) const;
 
     const SourceFile* source_;
     std::string_view rest_;

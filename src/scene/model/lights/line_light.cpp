@@ -94,7 +94,7 @@ void Kind::transform(LineLight& light, const Transform& transform) {
     }
     light.start = to_float(transform_point(transform, to_double(light.start)));
     light.end = to_float(transform_point(transform, to_double(light.end)));
-    light.radius = static_cast<float>(light.radius * std::cbrt(linear_determinant(transform)));
+    light.radius = static_cast<float>(light.radius * std::cbrt(std::fabs(linear_determinant(transform))));
 }
 
 bool Kind::same_shape(const LineLight& a, const LineLight& b) {

@@ -2,6 +2,7 @@
 
 #include "scene/build/lights/emission.h"
 #include "scene/colour/colour_space.h"
+#include "scene/model/limits.h"
 #include "scene/model/polygon.h"
 #include "scene/model/vector_math.h"
 #include "scene/sky/preetham_sky.h"
@@ -164,11 +165,9 @@ PointLight LightSourceReader::spot() {
     light.z_axis = direction(from, to);
     light.distribution = is_v3() ? PointDistribution::quartic_cone : PointDistribution::smooth_cone;
     const double cone = parameters_.real("coneangle", 30);
-    // Single precision holds the falloff of narrower cones no more.
-    constexpr double kNarrowest = 1e-6;
-    if (!(cone >= kNarrowest && cone <= 180))
+    if (!(cone >= kNarrowestCone && cone <= 180))
         fail("coneangle",
-             "coneangle must be from " + to_text(kNarrowest) + " to 180 degrees, found " + to_text(cone));
+             "coneangle must be from " + to_text(kNarrowestCone) + " to 180 degrees, found " + to_text(cone));
     const double delta = parameters_.real("conedeltaangle", 5);
     if (!(delta >= 0 && delta <= 2 * cone))
         fail("conedeltaangle", "conedeltaangle must be from 0 to twice the coneangle of " + to_text(cone) +
