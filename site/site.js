@@ -56,7 +56,20 @@ function show() {
     found.append(item);
 }
 
-query.addEventListener("input", show);
+// All sections take longer to load than a page, hence not before somebody searches.
+let loaded = null;
+function load() {
+    loaded ??= new Promise((resolve) => {
+        const script = document.createElement("script");
+        script.src = `${root}sections.js`;
+        script.onload = resolve;
+        document.head.append(script);
+    });
+    return loaded;
+}
+
+query.addEventListener("focus", load);
+query.addEventListener("input", () => load().then(show));
 document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") found.hidden = true;
     const isTyping = event.target instanceof HTMLInputElement;

@@ -104,6 +104,7 @@ class SiteTest(unittest.TestCase):
         query = browser.find("#query")
         query.clear()
         query.send_keys(words)
+        browser.wait_for("return typeof sections !== 'undefined'")
         browser.settle()
         return browser.find_all("#found li")
 
