@@ -4,7 +4,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,tests,examples,shaders,scripts,cmake}
+mkdir -p "$tree"/{include,src,proof,lab,apps,web,wasm,site,tests,examples,shaders,scripts,cmake}
 cp "$scripts/../.clang-format" "$tree"
 touch "$tree/CMakeLists.txt" "$tree/Makefile"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'
@@ -20,7 +20,7 @@ for check in format length folders paths; do expect "$check" passes "$good"; don
 expect format fails $'int  sum(int a,int b) { return a+b; }\n'
 expect length passes "$(yes '// line' | head -n 600)"
 expect length fails "$(yes '// line' | head -n 601)"
-for file in shaders/a.{glsl,comp,vert,frag} scripts/a.{py,sh} cmake/a.{cmake,h.in} tests/CMakeLists.txt CMakeLists.txt Makefile; do
+for file in shaders/a.{glsl,comp,vert,frag} scripts/a.{py,sh} web/a.ts site/a.py cmake/a.{cmake,h.in} tests/CMakeLists.txt CMakeLists.txt Makefile; do
     head -n 601 < <(yes '# line') >"$tree/$file"
     expect length fails "$good"
     : >"$tree/$file"
