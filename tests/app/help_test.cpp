@@ -127,7 +127,7 @@ protected:
 
 TEST_F(Help, IsCompleteAndInOneFormForEveryCommand) {
     EXPECT_EQ(check([this](const std::string& arguments) { return run(arguments); }, ""), 10);
-    EXPECT_EQ(check([this](const std::string& arguments) { return run_lab(arguments); }, ""), 27);
+    EXPECT_EQ(check([this](const std::string& arguments) { return run_lab(arguments); }, ""), 28);
 }
 
 TEST_F(Help, OfAllCommandsHasTheHelpOfEach) {
