@@ -1,6 +1,7 @@
 #pragma once
-/// All techniques, with the BRDFs, random numbers and descriptions of light that they are used with. Packs of SIMD lanes are an extra, as is the
-/// splitting of concave lights: include <nusselt/simd/pack.h> or <nusselt/geometry/split_convex.h> as well.
+/// All techniques, with the BRDFs, random numbers and descriptions of light that they are used with. Packs of SIMD lanes
+/// are an extra, as is the splitting of concave lights: include <nusselt/simd/pack.h> or
+/// <nusselt/geometry/split_convex.h> as well.
 
 #include <nusselt/bsdf/frostbite.h>
 #include <nusselt/bsdf/ggx_visible_normals.h>

@@ -10,18 +10,39 @@ namespace nusselt::render_vulkan {
 
 namespace {
 
-/// Lights whose integrals take cells that shaders do not have.
-struct LightsWithoutIntegral {
-    bool profiles, mapped_portals;
-};
+using LightShapes = decltype(SceneKinds::lights);
 
-LightsWithoutIntegral without_integral(const SceneKinds& kinds) {
-    const auto has = [&](int constant) {
-        return kinds.lights.at(static_cast<std::size_t>(constant - interface::kFirstLightConstant));
-    };
-    return {has(interface::kProfiledPolygonsConstant) || has(interface::kProfiledLinesConstant) ||
-                has(interface::kProfiledTubesConstant),
-            has(interface::kMappedPortalsConstant)};
+std::size_t index_of(int constant) {
+    return static_cast<std::size_t>(constant - interface::kFirstLightConstant);
+}
+
+template <class Light>
+void mark_shapes(const scene::Lights& lights, LightShapes& shapes) {
+    for (const Light& light : lights.of<Light>()) shapes.at(index_of(constant_of(light))) = true;
+}
+
+/// Of the kinds of lights that decide what is supported.
+LightShapes shapes_of(const scene::Lights& lights) {
+    LightShapes shapes = {};
+    mark_shapes<scene::PolygonLight>(lights, shapes);
+    mark_shapes<scene::LineLight>(lights, shapes);
+    mark_shapes<scene::EnvironmentLight>(lights, shapes);
+    return shapes;
+}
+
+std::optional<std::string> why_unsupported_with(const LightShapes& shapes,
+                                                const render::RenderSettings& settings) {
+    // Their integrals take cells that shaders do not have.
+    const auto has = [&](int constant) { return shapes.at(index_of(constant)); };
+    const bool has_profiles = has(interface::kProfiledPolygonsConstant) ||
+                              has(interface::kProfiledLinesConstant) ||
+                              has(interface::kProfiledTubesConstant);
+    if (settings.technique == render::Technique::ltc_analytic && has_profiles)
+        return "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
+               "honeycomb";
+    if (settings.technique == render::Technique::ltc_analytic && has(interface::kMappedPortalsConstant))
+        return "--technique ltc_analytic is not supported on GPUs for portals of environments with a map";
+    return render_vulkan::why_unsupported(settings);
 }
 
 template <class Light>
@@ -29,23 +50,6 @@ std::ptrdiff_t count_of(int constant, const scene::Lights& lights) {
     const auto& of_kind = lights.of<Light>();
     return std::count_if(of_kind.begin(), of_kind.end(),
                          [&](const Light& light) { return constant_of(light) == constant; });
-}
-
-LightsWithoutIntegral without_integral(const scene::Lights& lights) {
-    return {count_of<scene::PolygonLight>(interface::kProfiledPolygonsConstant, lights) > 0 ||
-                count_of<scene::LineLight>(interface::kProfiledLinesConstant, lights) > 0 ||
-                count_of<scene::LineLight>(interface::kProfiledTubesConstant, lights) > 0,
-            count_of<scene::EnvironmentLight>(interface::kMappedPortalsConstant, lights) > 0};
-}
-
-std::optional<std::string> why_unsupported_with(const LightsWithoutIntegral& lights,
-                                                const render::RenderSettings& settings) {
-    if (settings.technique == render::Technique::ltc_analytic && lights.profiles)
-        return "--technique ltc_analytic is not supported on GPUs for lights with a profile, a spread or a "
-               "honeycomb";
-    if (settings.technique == render::Technique::ltc_analytic && lights.mapped_portals)
-        return "--technique ltc_analytic is not supported on GPUs for portals of environments with a map";
-    return render_vulkan::why_unsupported(settings);
 }
 
 /// Whether the CPU would sample profiles of lines in proportion to their radiance: takes_products() of its kernel.
@@ -82,13 +86,13 @@ std::optional<std::string> why_unsupported(const render::RenderSettings& setting
 }
 
 std::optional<std::string> why_unsupported(const SceneKinds& kinds, const render::RenderSettings& settings) {
-    return why_unsupported_with(without_integral(kinds), settings);
+    return why_unsupported_with(kinds.lights, settings);
 }
 
 std::optional<std::string> why_unsupported(const scene::Scene& scene,
                                            const render::RenderSettings& settings) {
     if (auto reason = why_unsupported(scene.lights)) return reason;
-    return why_unsupported_with(without_integral(scene.lights), settings);
+    return why_unsupported_with(shapes_of(scene.lights), settings);
 }
 
 std::vector<std::string> sampling_warnings(const scene::Scene& scene,

@@ -11,8 +11,6 @@ namespace nusselt::app {
 
 struct BenchEmissionFramesOptions : BenchFramesOptions {
     BenchEmissionFramesOptions() { threads = 1; }
-
-    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_bench_emission_frames() in exit_code, which must live until

@@ -27,6 +27,7 @@ struct BenchFramesOptions {
     std::optional<int> threads;
     std::optional<std::string> resolution; ///< "WIDTHxHEIGHT"
     std::optional<std::string> isa;
+    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds SCENE, --spp, --repetitions, --threads, --isa and --resolution.

@@ -4,8 +4,6 @@
 #include "apps/common/line_options.h"
 #include "bench_frames.h"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace CLI {
@@ -17,7 +15,6 @@ namespace nusselt::app {
 struct BenchLinesOptions : BenchFramesOptions {
     std::vector<int> counts = {4, 16, 64}; ///< of lines per shading point and light
     LineKindOptions lines;
-    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
 };
 
 /// Adds the subcommand. Its callback stores the result of run_bench_lines() in exit_code, which must live until the

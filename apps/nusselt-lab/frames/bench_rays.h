@@ -3,18 +3,13 @@
 
 #include "bench_frames.h"
 
-#include <optional>
-#include <string>
-
 namespace CLI {
 class App;
 }
 
 namespace nusselt::app {
 
-struct BenchRaysOptions : BenchFramesOptions {
-    std::optional<std::string> json; ///< "-" is the standard output, instead of the table
-};
+struct BenchRaysOptions : BenchFramesOptions {};
 
 /// Adds the subcommand. Its callback stores the result of run_bench_rays() in exit_code, which must live until the
 /// command line was parsed.
