@@ -135,7 +135,7 @@ class Site:
 
         lists = [("", self.extra)] if self.extra else []
         lists += [(part, [(address_of(page), self.titles[page]) for page in pages]) for part, pages in self.parts]
-        return "\n".join(f"<h2>{part}</h2>\n<ul>" * bool(part) + "<ul>" * (not part) +
+        return "\n".join((f"<h2>{part}</h2>\n" if part else "") + "<ul>" +
                          "".join(item(*entry) for entry in entries) + "</ul>" for part, entries in lists)
 
     def add_page(self, page, body):

@@ -27,13 +27,13 @@ struct EmissionFrames {
 /// \returns of how many lights
 std::size_t make_uniform(scene::Lights& lights) {
     std::size_t count = 0;
-    const auto drop = [&](std::int32_t& first, std::int32_t& second) {
-        if (first >= 0 || second >= 0) ++count;
-        first = second = -1;
+    const auto drop = [&](auto&... indices) {
+        if (((indices >= 0) || ...)) ++count;
+        ((indices = -1), ...);
     };
     for (scene::PolygonLight& light : lights.of<scene::PolygonLight>()) drop(light.texture, light.profile);
     for (scene::LineLight& light : lights.of<scene::LineLight>()) drop(light.texture, light.profile);
-    for (scene::EnvironmentLight& light : lights.of<scene::EnvironmentLight>()) drop(light.map, light.map);
+    for (scene::EnvironmentLight& light : lights.of<scene::EnvironmentLight>()) drop(light.map);
     return count;
 }
 
