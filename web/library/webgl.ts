@@ -17,7 +17,7 @@ export interface Uniform {
 export interface PendingProgram {
     /// Whether finishing it will not wait. Always true where the browser cannot tell.
     isReady(): boolean;
-    /// \throws Error with the messages of the compiler
+    /// The program, the same at each call. \throws Error with the messages of the compiler
     finish(): Program;
 }
 
@@ -48,15 +48,18 @@ export function beginProgram(gl: Gl, vertex: string, fragment: string): PendingP
     const shaders = [beginShader(gl, gl.VERTEX_SHADER, vertex), beginShader(gl, gl.FRAGMENT_SHADER, fragment)];
     for (const shader of shaders) gl.attachShader(program, shader);
     gl.linkProgram(program);
+    let finished: Program | null = null;
     return {
-        isReady: () => parallel === null || Boolean(gl.getProgramParameter(program, parallel.COMPLETION_STATUS_KHR)),
+        isReady: () => finished !== null || parallel === null ||
+            Boolean(gl.getProgramParameter(program, parallel.COMPLETION_STATUS_KHR)),
         finish() {
+            if (finished !== null) return finished;
             if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
                 const logs = shaders.map(shader => gl.getShaderInfoLog(shader) ?? "");
                 throw new Error([...logs, gl.getProgramInfoLog(program) ?? ""].filter(Boolean).join("\n"));
             }
             for (const shader of shaders) gl.deleteShader(shader);
-            return { program, uniforms: uniformsOf(gl, program) };
+            return finished = { program, uniforms: uniformsOf(gl, program) };
         },
     };
 }

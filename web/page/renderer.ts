@@ -69,7 +69,7 @@ export interface Display {
 export class Renderer {
     width = 0;
     height = 0;
-    private readonly programs = new Map<string, PendingProgram & { program?: Program }>();
+    private readonly programs = new Map<string, PendingProgram>();
     private readonly lobes: LobeTable;
     private scene: Scene | null = null;
     private textures: SceneTextures | null = null;
@@ -122,7 +122,7 @@ export class Renderer {
         return makeImageShader(this.sources, techniqueOf(side.technique), sampler.constant, lightKinds(this.scene));
     }
 
-    private pending(key: string, vertex: string, fragment: () => string): PendingProgram & { program?: Program } {
+    private pending(key: string, vertex: string, fragment: () => string): PendingProgram {
         const known = this.programs.get(key);
         if (known !== undefined) return known;
         const begun = beginProgram(this.gl, assembleShader(this.sources, `#include "${vertex}"\n`), fragment());
@@ -130,24 +130,17 @@ export class Renderer {
         return begun;
     }
 
-    private finished(pending: PendingProgram & { program?: Program }): Program {
-        return pending.program ??= pending.finish();
-    }
-
     private pass(name: string, vertex = "screen.vert"): Program {
-        return this.finished(this.pending(name, vertex, () => assembleShader(this.sources, `#include "${name}"\n`)));
+        return this.pending(name, vertex, () => assembleShader(this.sources, `#include "${name}"\n`)).finish();
     }
 
-    private imageProgram(side: Side): PendingProgram & { program?: Program } {
+    private imageProgram(side: Side): PendingProgram {
         const kinds = this.scene === null ? [] : lightKinds(this.scene);
         return this.pending([side.technique, side.sampler, ...kinds].join(), "screen.vert", () => this.shaderText(side));
     }
 
     /// Whether an image can be drawn without waiting for a compiler. Begins to compile.
-    isReady(side: Side): boolean {
-        const pending = this.imageProgram(side);
-        return pending.program !== undefined || pending.isReady();
-    }
+    isReady(side: Side): boolean { return this.imageProgram(side).isReady(); }
 
     /// Finds what the camera sees, for the next frames.
     /// \param place where rays pass all pixels, in [0, 1)^2
@@ -175,7 +168,7 @@ export class Renderer {
         if (textures === null || visible === null || images === null) return;
         const image = images[name];
         const heuristic = heuristics.find(row => row.name === settings.heuristic) ?? heuristics[0];
-        draw(gl, this.finished(this.imageProgram(settings)), image.next, new Map<string, UniformValue>([
+        draw(gl, this.imageProgram(settings).finish(), image.next, new Map<string, UniformValue>([
             ...this.camera, ...textures.uniforms, ["materials", textures.materials], ["nodes", textures.nodes],
             ["visible_numbers", visible.texture], ["lobe_shapes", lobes.shapes], ["lobe_albedos", lobes.albedos],
             ["has_shadows", settings.shadows], ["seed", settings.seed], ["first_sample", image.count * settings.samples],
