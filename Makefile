@@ -52,8 +52,10 @@ single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
 	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
 
-hlsl-msl: build ## the same in HLSL and Metal Shading Language: out/hlsl, out/msl (needs spirv-cross)
-	cmake -D LIST=build/release/tests/parity/shaders.txt -D OUTPUT=out -P scripts/convert-shaders.cmake
+hlsl-msl: ## the same in HLSL and Metal Shading Language: out/hlsl, out/msl
+	scripts/setup.sh hlsl
+	scripts/build.sh build.ninja
+	cmake -D LIST=build/release/lab/parity/shaders.txt -D OUTPUT=out -P scripts/convert-shaders.cmake
 
 clean: ## removes build/ and out/
 	rm -rf build out

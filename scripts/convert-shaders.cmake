@@ -3,7 +3,7 @@
 # in Metal) computes a sample, its density, the inverse and the measure for lights in a buffer: an example of how to call the
 # functions above it.
 # Usage: cmake -D LIST=FILE -D OUTPUT=FOLDER -P scripts/convert-shaders.cmake
-# LIST is build/release/tests/parity/shaders.txt, which names entry points, their sources and definitions.
+# LIST is build/release/lab/parity/shaders.txt, which names entry points, their sources and definitions.
 cmake_minimum_required(VERSION 3.25)
 
 include("${CMAKE_CURRENT_LIST_DIR}/one-file.cmake")
@@ -33,7 +33,7 @@ file(STRINGS ${LIST} rows)
 set(done)
 foreach(row IN LISTS rows)
     # Techniques of the library, for polygons of up to four vertices where there is a choice.
-    if(row MATCHES "^twin_rolled" OR NOT row MATCHES "^twin_([a-z_]+)_([0-9])\t([^\t]+/lab/shaders/[^\t]+)\t?(.*)$")
+    if(row MATCHES "^twin_rolled" OR NOT row MATCHES "^twin_([a-z_0-9]+)_([0-9])\t([^\t]+)\t?(.*)$")
         continue()
     endif()
     set(name ${CMAKE_MATCH_1})

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh check|build|page|site|wasm|test
+# Usage: scripts/setup.sh check|build|page|site|wasm|hlsl|test
 #   check  packages for the library and its tests
 #   build  also packages for the programs
 #   page   packages for the live page
 #   site   packages for the programs, the live page and the site of the documentation
 #   wasm   packages for the programs and for the library in WebAssembly
+#   hlsl   packages for the shaders in other languages
 #   test   also packages for all tests
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -21,8 +22,9 @@ case "${1:-}" in
     page) wanted='page' ;;
     site) wanted='check|build|page|site' ;;
     wasm) wanted='check|build|page|wasm' ;;
-    test) wanted='check|build|page|site|wasm|test' ;;
-    *) fail "usage: scripts/setup.sh check|build|page|site|wasm|test" ;;
+    hlsl) wanted='check|build|hlsl' ;;
+    test) wanted='check|build|page|site|wasm|hlsl|test' ;;
+    *) fail "usage: scripts/setup.sh check|build|page|site|wasm|hlsl|test" ;;
 esac
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown

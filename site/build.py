@@ -2,8 +2,8 @@
 """Makes a static site of the documentation, which works without a network and from a disk.
 
 Usage: site/build.py OUT [--pictures FOLDER] [--report FOLDER] [--live FOLDER]
-  OUT         the folder of the site: new, empty, or of an earlier site, which is deleted
-  --pictures  images of the scenes of site/gallery.txt: NAME.png
+  OUT         the folder of the site: new, empty, or of an earlier site, which the new one replaces
+  --pictures  images of the scenes of site/gallery.txt, NAME.png, and how they were made, about.txt
   --report    a folder of `nusselt-lab reproduce`
   --live      the folder of the live page
 Without a folder, the site has no such page. Needs pandoc, nodejs and Debian's libjs-katex.
@@ -21,12 +21,15 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 SITE = pathlib.Path(__file__).resolve().parent
 ROOT = SITE.parent
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 IMAGES = {".png", ".svg", ".jpg"}
+KATEX_LICENCE = pathlib.Path("/usr/share/doc/libjs-katex/copyright")
 LARGEST_SOURCE = 400_000  # bytes of a file that becomes a page
+MARK = ".made-by-site-build"  # tells folders of sites from those of sources
 
 
 class SiteError(Exception):
@@ -55,6 +58,15 @@ def contents():
     if known != named:
         raise SiteError(f"site/contents.json does not name {', '.join(sorted(known - named))}")
     return parts
+
+
+def sources():
+    """The files of the repository, without what editors and builds leave in its folders."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                            capture_output=True, text=True)
+    if listed.returncode != 0:
+        raise SiteError(f"git does not list the files of {ROOT}: {listed.stderr.strip()}")
+    return set(listed.stdout.split("\0"))
 
 
 def address_of(path):
@@ -114,6 +126,7 @@ class Site:
         self.shown = set()  # files and folders of the repository that have pages
         self.anchors = {}  # of each page
         self.links = []  # (page, path of the target, anchor)
+        self.sources = sources()
 
     def write(self, address, title, body):
         root = "../" * address.count("/")
@@ -181,7 +194,7 @@ class Site:
             (self.out / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, self.out / path)
         elif file.is_dir():
-            files = sorted(f for f in file.iterdir() if f.is_file() and f.suffix != ".md")
+            files = sorted(f for f in file.iterdir() if f"{path}/{f.name}" in self.sources and f.suffix != ".md")
             for f in files:
                 self.show(f"{path}/{f.name}")
             items = "".join(f'<li><a href="{html.escape(os.path.basename(address_of(f"{path}/{f.name}")))}">'
@@ -190,8 +203,11 @@ class Site:
         else:
             if file.stat().st_size > LARGEST_SOURCE:
                 raise SiteError(f"{path} is linked to, but too large for a page")
-            self.write(address_of(path), path,
-                       f'<h1>{html.escape(path)}</h1>\n<pre class="source">{html.escape(file.read_text())}</pre>')
+            try:
+                text = file.read_text()
+            except UnicodeDecodeError:
+                raise SiteError(f"{path} is linked to, but is not a text") from None
+            self.write(address_of(path), path, f'<h1>{html.escape(path)}</h1>\n<pre class="source">{html.escape(text)}</pre>')
 
     def check_anchors(self):
         for page, target, anchor in self.links:
@@ -210,23 +226,41 @@ class Site:
             shutil.copy(pictures / f"{name}.png", self.out / target)
             items.append(f'<figure><a href="{target}"><img src="{target}" alt="{html.escape(about)}" loading="lazy"></a>'
                          f'<figcaption>{html.escape(about)} <a href="{address_of(scene)}">The scene</a></figcaption></figure>')
-        self.write("gallery.html", "Gallery", "<h1>Gallery</h1>\n<p>Pictures of the scenes that come with the renderer, "
-                   "straight from it, with 16 samples per pixel and light.</p>\n" + "\n".join(items))
+        about = html.escape((pictures / "about.txt").read_text().strip())
+        self.write("gallery.html", "Gallery", f"<h1>Gallery</h1>\n<p>{about}</p>\n" + "\n".join(items))
+
+
+def check_is_replaceable(out):
+    """Whether a folder may be replaced by a site: no sources, and nobody else's files."""
+    place = out.resolve()
+    if ROOT.is_relative_to(place) or place.is_relative_to(SITE):
+        raise SiteError(f"'{out}' has the sources of the site")
+    if out.exists() and (not out.is_dir() or any(out.iterdir()) and not (out / MARK).exists()):
+        raise SiteError(f"'{out}' is neither an empty folder nor a site")
 
 
 def build(options):
-    site = Site(options.out)
+    check_is_replaceable(options.out)
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    # A mistake of a page leaves the earlier site as it is.
+    with tempfile.TemporaryDirectory(dir=options.out.parent, prefix=f".{options.out.name}-") as folder:
+        made = pathlib.Path(folder) / "site"
+        make(options, made)
+        shutil.rmtree(options.out, ignore_errors=True)
+        made.rename(options.out)
+
+
+def make(options, out):
+    site = Site(out)
     for folder, address, title in ((options.live, "live/index.html", "Live in this browser"),
                                    (options.pictures, "gallery.html", "Gallery"),
                                    (options.report, "report/index.html", "The report of this version")):
         if folder:
             site.extra.append((address, title))
-    if options.out.exists() and any(options.out.iterdir()) and not (options.out / "site.js").exists():
-        raise SiteError(f"the folder '{options.out}' is neither empty nor a site")
-    shutil.rmtree(options.out, ignore_errors=True)
-    options.out.mkdir(parents=True)
+    out.mkdir()
+    (out / MARK).touch()
     for name in ("site.css", "site.js"):
-        shutil.copy(SITE / name, options.out)
+        shutil.copy(SITE / name, out)
     pages = [page for _, pages in site.parts for page in pages]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         bodies = typeset(list(pool.map(converted, pages)))
@@ -239,12 +273,13 @@ def build(options):
         site.add_gallery(options.pictures)
     for folder, name in ((options.report, "report"), (options.live, "live")):
         if folder:
-            shutil.copytree(folder, options.out / name)
+            shutil.copytree(folder, out / name)
     site.put("sections.js", f"const sections = {json.dumps(site.sections, ensure_ascii=False)};\n")
-    shutil.copy(KATEX / "katex.min.css", options.out / "katex.css")
-    (options.out / "fonts").mkdir()
+    shutil.copy(KATEX / "katex.min.css", out / "katex.css")
+    (out / "fonts").mkdir()
     for font in (KATEX / "fonts").glob("*.woff2"):
-        shutil.copy(font, options.out / "fonts")
+        shutil.copy(font, out / "fonts")
+    shutil.copy(KATEX_LICENCE, out / "fonts/LICENCE-KaTeX.txt")
 
 
 def main():

@@ -50,26 +50,31 @@ function show() {
         item.append(link);
         found.append(item);
     }
-    if (found.childElementCount > 0) return;
+    if (found.childElementCount === 0) say("Nothing found");
+}
+
+function say(text) {
     const item = document.createElement("li");
-    item.textContent = "Nothing found";
-    found.append(item);
+    item.textContent = text;
+    found.replaceChildren(item);
+    found.hidden = false;
 }
 
 // All sections take longer to load than a page, hence not before somebody searches.
 let loaded = null;
 function load() {
-    loaded ??= new Promise((resolve) => {
+    loaded ??= new Promise((resolve, reject) => {
         const script = document.createElement("script");
         script.src = `${root}sections.js`;
         script.onload = resolve;
+        script.onerror = reject;
         document.head.append(script);
     });
     return loaded;
 }
 
-query.addEventListener("focus", load);
-query.addEventListener("input", () => load().then(show));
+query.addEventListener("focus", () => load().catch(() => {})); // typing tells
+query.addEventListener("input", () => load().then(show, () => say("The index of the search is missing: sections.js")));
 document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") found.hidden = true;
     const isTyping = event.target instanceof HTMLInputElement;

@@ -91,3 +91,7 @@ foreach(functions arithmetic brdf_direct_light bsdf clip engine_table frame ligh
     trig visible_normals)
     nusselt_add_shader(nusselt_lab_parity ${functions} ${PROJECT_SOURCE_DIR}/shaders/parity/functions/${functions}.comp)
 endforeach()
+
+# The entry points that scripts/convert-shaders.cmake translates.
+get_target_property(shaders nusselt_lab_parity NUSSELT_SHADERS)
+file(CONFIGURE OUTPUT parity/shaders.txt CONTENT "${shaders}" @ONLY)

@@ -17,11 +17,17 @@ compiles() { "$glslang" -D -V -e main -S comp --quiet -o "$work/hlsl.spv" "$1" >
 
 rm -rf "$work"
 cmake -D LIST="$list" -D OUTPUT="$work" -P "$root/scripts/convert-shaders.cmake"
-for hlsl in "$work"/hlsl/*.hlsl; do
-    name=$(basename "$hlsl" .hlsl)
-    for file in "$hlsl" "$work/msl/$name.metal"; do
+# Techniques of the library, as scripts/check-techniques.py names them.
+expected=$(PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 python3 -c '
+import importlib, pathlib, sys
+techniques = importlib.import_module("check-techniques")
+for row in techniques.rows_of(pathlib.Path(sys.argv[1])):
+    if not row["header"].startswith("related/") and "parity" not in techniques.exemptions(row):
+        print(techniques.snake_case(row["name"]))' "$root")
+for name in $expected; do
+    for file in "$work/hlsl/$name.hlsl" "$work/msl/$name.metal"; do
         for function in prepare sample pdf invert measure; do
-            grep -qE "^[a-zA-Z0-9]+ [a-z_]+_$function\(" "$file" || { echo "$file: no function _$function"; failed=1; }
+            grep -qE "^[a-zA-Z0-9]+ ${name}_$function\(" "$file" || { echo "$file: no function ${name}_$function"; failed=1; }
         done
     done
 done

@@ -2,6 +2,7 @@
 """Tests that site/build.py finds mistakes of pages, and shows what pages link to."""
 import argparse
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -21,14 +22,15 @@ class BuildTest(unittest.TestCase):
         site, build.ROOT, build.SITE = build.SITE, self.root, self.root / "site"
         self.addCleanup(setattr, build, "SITE", site)
         build.SITE.mkdir()
+        subprocess.run(["git", "init", "--quiet", folder.name], check=True)
         for name in ("template.html", "site.css", "site.js", "formulas.js"):
             (build.SITE / name).write_bytes((site / name).read_bytes())
         (build.SITE / "contents.json").write_text('[{"part": "Start", "pages": ["README.md"]}]')
 
     def made(self, text, **folders):
         (self.root / "README.md").write_text(f"# Title\n\n{text}\n")
-        options = {"report": None, "pictures": None, "live": None, **folders}
-        build.build(argparse.Namespace(out=self.root / "out", **options))
+        options = {"out": self.root / "out", "report": None, "pictures": None, "live": None, **folders}
+        build.build(argparse.Namespace(**options))
         return (self.root / "out/index.html").read_text()
 
     def refuses(self, text, message):
@@ -51,19 +53,33 @@ class BuildTest(unittest.TestCase):
     def test_linked_files_and_folders_become_pages(self):
         (self.root / "code").mkdir()
         (self.root / "code/a.h").write_text("#include <b> & c")
+        (self.root / ".gitignore").write_text("*.log\n")
+        (self.root / "code/private.log").write_bytes(b"\xff")
         body = self.made('[a](code/a.h) [folder](code) [far](https://example.org/x) `<a href="b.h">`')
         for link in ("code/a.h.html", "code/index.html", "https://example.org/x"):
             self.assertIn(f'href="{link}"', body)
         self.assertIn("#include &lt;b&gt; &amp; c", (self.root / "out/code/a.h.html").read_text())
-        self.assertIn('href="a.h.html"', (self.root / "out/code/index.html").read_text())
+        listed = (self.root / "out/code/index.html").read_text()
+        self.assertIn('href="a.h.html"', listed)
+        self.assertNotIn("private", listed)
+        self.refuses("[a](code/private.log)", "code/private.log is linked to, but is not a text")
 
-    def test_only_sites_are_deleted(self):
+    def test_only_sites_are_replaced(self):
         (self.root / "out").mkdir()
         (self.root / "out/mine").write_text("")
-        self.refuses("", "is neither empty nor a site")
+        self.refuses("", "is neither an empty folder nor a site")
         (self.root / "out/mine").unlink()
         self.made("first")
         self.assertIn("second", self.made("second"))
+        self.assertTrue((self.root / "out/fonts/LICENCE-KaTeX.txt").exists())
+        self.refuses("[a](nowhere.h)", "is missing")
+        self.assertIn("second", (self.root / "out/index.html").read_text())
+
+    def test_sources_are_kept(self):
+        for folder in (build.SITE, build.SITE / "new", self.root, self.root.parent):
+            with self.assertRaisesRegex(build.SiteError, "has the sources of the site"):
+                self.made("", out=folder)
+        self.assertTrue((build.SITE / "site.js").exists())
 
     def test_pages_of_folders_are_in_the_contents(self):
         (self.root / "report").mkdir()
@@ -80,9 +96,11 @@ class BuildTest(unittest.TestCase):
             self.made("", pictures=self.root / "pictures")
         (self.root / "pictures").mkdir()
         (self.root / "pictures/lamp.png").write_bytes(b"picture")
+        (self.root / "pictures/about.txt").write_text("Two samples.\n")
         self.made("", pictures=self.root / "pictures")
         gallery = (self.root / "out/gallery.html").read_text()
         self.assertIn('alt="A lamp &amp; a wall."', gallery)
+        self.assertIn("<p>Two samples.</p>", gallery)
         self.assertIn('href="scenes/lamp.pbrt.html"', gallery)
 
 

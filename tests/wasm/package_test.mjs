@@ -54,6 +54,20 @@ fails(() => nusselt.prepare("PolygonArea", 1, new Float32Array(27)), /takes no 1
 fails(() => nusselt.prepare("LineArea", 1.5, new Float32Array(9)), /takes no 1.5 lights/);
 fails(() => windows.sample(new Float32Array(11)), /11 random numbers are no multiple of 10/);
 fails(() => windows.pdf(new Float32Array(0)), /0 coordinates are no multiple of 15/);
+fails(() => windows.pdf([0, 0, 1]), /the coordinates must be a Float32Array/);
+fails(() => nusselt.prepare("PolygonArea", 1, side), /the columns of lights must be a Float32Array/);
+// Nothing is written if one of several arrays does not fit, whether columns have a gap in the module or not.
+for (const count of [4, 5]) {
+    const lights = nusselt.prepare("PolygonArea", count, columnsOf(Array(count).fill(side)));
+    const numbers = new Float32Array(2 * count);
+    for (const [name, length] of [["wi", 3 * count + 1], ["pdf", count - 1], ["p", 4 * count]]) {
+        const into = { wi: new Float32Array(3 * count), pdf: new Float32Array(count), p: new Float32Array(3 * count) };
+        into[name] = new Float32Array(length);
+        fails(() => lights.sample(numbers, into), new RegExp(`${name} has ${length} numbers in place of`));
+        assert.ok(Object.values(into).flatMap(values => [...values]).every(value => value === 0));
+    }
+    lights.free();
+}
 // The zeros of this array take no memory, because nothing reads them.
 fails(() => nusselt.prepare("PolygonProjectedSolidAngle", 1e7, new Float32Array(9e7)), /no memory for \d+ bytes/);
 windows.free();
@@ -75,8 +89,14 @@ const bare = await instantiate(readFileSync(join(folder, "nusselt.wasm")));
 assert.deepEqual(bare.prepare("PolygonArea", 1, columnsOf([side])).measure(), Float32Array.of(4));
 assert.ok(readFileSync(join(folder, "nusselt.global.js")).length < 400e3);
 
-// The examples of the documentation run.
+// The measurement that docs/wasm.md shows keeps what it promises, for each technique of the package.
 const root = new URL("../../", import.meta.url);
+const { columns, rows } = JSON.parse(readFileSync(new URL("docs/data/wasm.json", root), "utf8")).tables[0];
+const column = name => rows.map(row => row[columns.findIndex(column => column.name === name)]);
+assert.deepEqual([...new Set(column("technique"))].sort(), techniques.map(({ name }) => name).sort());
+for (const ratio of column("sample_ratio")) assert.ok(ratio <= 2.5, `samples take ${ratio} times as long as in native code`);
+
+// The examples of the documentation run.
 for (const page of ["docs/wasm.md", "wasm/package/README.md"]) {
     const examples = [...readFileSync(new URL(page, root), "utf8").matchAll(/^```js\n(.*?)^```/gms)];
     assert.equal(examples.length, 1, page);

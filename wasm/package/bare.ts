@@ -83,6 +83,11 @@ function allocate(exports: Exports, size: number): number {
     return address;
 }
 
+/** For programs whose types nobody checks. */
+function checkType(values: unknown, what: string): void {
+    if (!(values instanceof Float32Array)) throw new TypeError(`nusselt: the ${what} must be a Float32Array`);
+}
+
 /** Lights that a technique has prepared. They occupy memory of the module until `free()`. */
 export class Lights {
     private readonly groups: number;
@@ -111,6 +116,11 @@ export class Lights {
      */
     sample(u: Float32Array, into?: Samples): Samples {
         const rounds = this.roundsOf(u, this.random, "random numbers");
+        if (into) {
+            this.checkLength("wi", into.wi, 3 * rounds);
+            this.checkLength("pdf", into.pdf, rounds);
+            this.checkLength("p", into.p, 3 * rounds);
+        }
         return this.withColumns([this.random * rounds, 3 * rounds, rounds, 3 * rounds], ([random, wi, pdf, p]) => {
             this.exports.nusselt_sample(this.row, this.prepared, this.groups, rounds, random!.write(u).address,
                                         wi!.address, pdf!.address, p!.address);
@@ -155,7 +165,14 @@ export class Lights {
         this.prepared = 0;
     }
 
+    private checkLength(name: string, values: Float32Array, columns: number): void {
+        checkType(values, name);
+        if (values.length !== columns * this.count)
+            throw new RangeError(`nusselt: ${name} has ${values.length} numbers in place of ${columns * this.count}`);
+    }
+
     private roundsOf(values: Float32Array, perLight: number, what: string): number {
+        checkType(values, what);
         const perRound = perLight * this.count;
         if (values.length === 0 || values.length % perRound !== 0)
             throw new RangeError(`nusselt: ${values.length} ${what} are no multiple of ${perRound}, ` +
@@ -186,6 +203,7 @@ export class Nusselt {
      * @param lights the columns of `count` lights (docs/wasm.md)
      */
     prepare(technique: TechniqueName, count: number, lights: Float32Array): Lights {
+        checkType(lights, "columns of lights");
         const row = this.exports.nusselt_row(indexOf(technique), lights.length / count);
         if (!Number.isInteger(count) || count < 1 || lights.length % count !== 0 || row < 0)
             throw new RangeError(`nusselt: ${technique} takes no ${count} lights from ${lights.length} numbers`);
