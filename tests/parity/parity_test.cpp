@@ -18,13 +18,13 @@ void PrintTo(const ParityCase& parity_case, std::ostream* out) {
 
 namespace {
 
-/// Whether the browser takes part: with each technique once, and functions. Bounds on the number of vertices repeat code, and
+/// Whether the browser takes part: with each technique and published method once, and functions. Bounds on the number of vertices repeat code, and
 /// estimates for polygons combine two techniques in 12 s of compiling.
 bool runs_in_browser(const ParityCase& parity_case) {
     const std::string& name = parity_case.name;
     if (parity_case.subject == "technique" || parity_case.subject == "hostile lights")
         return name.back() != '7' && name.back() != '8';
-    return parity_case.subject == "random numbers" ||
+    return parity_case.subject == "random numbers" || parity_case.subject == "published method" ||
            (parity_case.subject == "functions" && name != "estimates for polygons");
 }
 
