@@ -262,6 +262,13 @@ TEST_F(HostileFiles, HdrIsDividedByExposures) {
     }
 }
 
+/// Headers that an editor of another system has saved.
+TEST_F(HostileFiles, HdrWithDosLineEnds) {
+    write_bytes(in_folder("a.hdr"), "#?RADIANCE\r\nEXPOSURE=2\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n"
+                                    "-Y 1 +X 1\r\n\x80\x40\x20\x84");
+    EXPECT_EQ(read_image(in_folder("a.hdr")).pixels, (std::vector<float>{4, 2, 1}));
+}
+
 TEST_F(HostileFiles, HdrWithHugeSize) {
     for (const std::string size : {"-Y 16384 +X 16384", "-Y 1 +X 268435456", "-Y 268435456 +X 1"})
         expect_cut_off("a.hdr",

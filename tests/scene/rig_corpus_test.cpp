@@ -207,6 +207,7 @@ TEST_P(RigCorpus, DoesWhatIsExpected) {
     const std::size_t first = has_scene && expected.size() > 1 ? 1 : 0;
     const bool must_fail = expected[first].first == "error";
     Scene scene = load_scene(kRigs / (has_scene ? expected[0].second : "lamps.pbrt"));
+    const std::size_t warnings_before = scene.warnings.size();
     try {
         apply_rig(read_rig(kRigs / name), scene);
     } catch (const std::runtime_error& error) {
@@ -214,15 +215,24 @@ TEST_P(RigCorpus, DoesWhatIsExpected) {
         return;
     }
     ASSERT_FALSE(must_fail) << "is applied, in spite of: " << expected[first].second;
+    std::vector<std::string> warnings;
+    for (std::size_t i = warnings_before; i < scene.warnings.size(); ++i)
+        warnings.push_back(short_message(scene.warnings[i], name));
+    std::vector<std::string> expected_warnings;
     const std::map<std::string, std::string> found = facts(scene);
     for (const auto& [key, value] : expected) {
         if (key == "scene") continue;
+        if (key == "warning") {
+            expected_warnings.push_back(value);
+            continue;
+        }
         const auto fact = found.find(key);
         if (fact == found.end())
             ADD_FAILURE() << "there is no " << key;
         else
             expect_fact(key, fact->second, value);
     }
+    EXPECT_EQ(warnings, expected_warnings);
 }
 
 /// All files and all sections.

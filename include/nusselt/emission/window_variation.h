@@ -20,7 +20,8 @@ inline constexpr T kLittleVariation = T(1) / 12;
 /// \tparam T    float, double or long double. \param light its side that faces the point.
 /// \param plane of the light seen from a point: to_shading_space(light.plane, point, frame), in any frame.
 /// \returns 0 or more; infinity if the light reaches beyond the domain of its table, where it is black; 0 if all of the box is
-///          black, and for points beyond or in the plane of the light.
+///          black, for points beyond or in the plane of the light, and for lights so huge or near that WindowedPolygon has
+///          no samples of them: those whose extent is about kLargestSlope times the distance or more.
 template <class T>
 NUSSELT_HD inline T window_variation(const WindowPlane<T>& plane, const WindowedLight<T>& light) noexcept {
     const RectifiedTable<T>& table = light.table;
@@ -37,6 +38,9 @@ NUSSELT_HD inline T window_variation(const WindowPlane<T>& plane, const Windowed
     const Vec2<T> corner{dot(plane.frame.t, plane.corner), dot(plane.frame.b, plane.corner)};
     low = low + corner;
     high = high + corner;
+    // Half of the limit of WindowedPolygon, whose distance is rounded in another way.
+    const T reach = max(max(abs(low.x), abs(high.x)), max(abs(low.y), abs(high.y)));
+    if (!(distance * (kLargestSlope<T> / 2) > reach)) return T(0);
 
     // A slope of z = 1 may lie beyond the domain by rounding.
     constexpr T kRounding = 64 * std::numeric_limits<T>::epsilon();

@@ -118,18 +118,25 @@ void divide_by_line(const std::string& line, std::array<double, 3>& factors) {
     }
 }
 
+/// A line without its end, which may be CR LF.
+bool read_line(std::istream& stream, std::string& line) {
+    if (!std::getline(stream, line)) return false;
+    if (line.ends_with('\r')) line.pop_back();
+    return true;
+}
+
 /// Leaves the stream at the first pixel.
 Header read_header(std::istream& stream) {
     Header header;
     std::string line;
-    if (!std::getline(stream, line) || !line.starts_with("#?"))
+    if (!read_line(stream, line) || !line.starts_with("#?"))
         throw std::runtime_error("this is not a Radiance HDR file, or it is empty; check its name");
-    while (std::getline(stream, line) && !line.empty()) {
+    while (read_line(stream, line) && !line.empty()) {
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
             throw std::runtime_error("only FORMAT=32-bit_rle_rgbe is supported, not " + line);
         divide_by_line(line, header.factors);
     }
-    if (!std::getline(stream, line) ||
+    if (!read_line(stream, line) ||
         std::sscanf(line.c_str(), "-Y %9d +X %9d", &header.height, &header.width) != 2)
         throw std::runtime_error("the size must be given as '-Y height +X width', not '" + line + "'");
     check_size(header.width, header.height);

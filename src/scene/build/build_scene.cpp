@@ -230,7 +230,7 @@ Scene build_scene(SceneDescription description) {
     BuiltShape shapes = join(std::move(built), description.words.instance);
     add_light_sources(description.light_sources, scene.textures, shapes);
     collect_warnings(shapes, description.warnings);
-    const std::vector<Location> environments = environment_origins(shapes);
+    const std::vector<EmitterOrigin> environments = environment_origins(shapes);
     take_shapes(std::move(shapes), description.sources.front().path, scene);
     add_instances(description, placed.objects, triangle_counts, scene);
     if (scene.triangles.empty() && scene.lights.empty())

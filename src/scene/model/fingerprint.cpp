@@ -78,7 +78,7 @@ public:
     }
 
     void add(const TexturedEmission& emission) {
-        const auto& [texture, coordinates, mean, part_begin, part_end] = emission;
+        const auto& [texture, coordinates, mean, part_begin, part_end, largest] = emission;
         const auto& [name, width, height, texels, path] = *texture;
         add_all(width, height, texels, mean);
         for (const Float2& at : coordinates) add(at);
@@ -102,7 +102,7 @@ public:
     }
 
     void add(const std::shared_ptr<const EnvironmentMapTexels>& map) {
-        const auto& [name, size, texels, mean, path] = *map;
+        const auto& [name, size, texels, mean, path, largest] = *map;
         add_all(size, texels, mean);
     }
 

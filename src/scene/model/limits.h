@@ -10,6 +10,10 @@ inline constexpr int kMaxFilmSize = 65536; ///< pixels along an axis
 /// Of the emission of a light, in the unit of its quantity. Sums over many samples of far brighter lights would overflow.
 inline constexpr double kMaxRadiance = 1e30;
 
+/// Of the means of images, maps and profiles, and of what lights with an image emit, per channel: what is darker counts as
+/// black. Renderers divide by these numbers, whose reciprocals and products would leave the range of single precision.
+inline constexpr double kDarkest = 1e-30;
+
 /// Of spots [degrees]. Directions in single precision are 3e-6 degrees apart: hardly one of them lies within narrower cones.
 inline constexpr double kNarrowestCone = 1e-6;
 

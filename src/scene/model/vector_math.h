@@ -1,8 +1,10 @@
 #pragma once
 /// Vectors in double precision, for geometry that is prepared once per scene.
 
+#include "scene/model/limits.h"
 #include "scene/model/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -37,6 +39,16 @@ inline Float3 per_channel_product(const Float3& a, const Float3& b) {
 inline Float3 per_channel_ratio(const Float3& a, const Float3& b) {
     const auto ratio = [](float x, float y) { return y > 0 ? x / y : 0; };
     return {ratio(a.x, b.x), ratio(a.y, b.y), ratio(a.z, b.z)};
+}
+
+/// Each channel that reaches kDarkest; 0 for the others.
+inline Float3 lit_channels(const Float3& c) {
+    const auto lit = [](float x) { return x < static_cast<float>(kDarkest) ? 0 : x; };
+    return {lit(c.x), lit(c.y), lit(c.z)};
+}
+/// The larger of both, for each channel.
+inline Float3 per_channel_maximum(const Float3& a, const Float3& b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
 inline bool is_black(const Float3& c) { return c.x == 0 && c.y == 0 && c.z == 0; }

@@ -48,6 +48,7 @@ public:
     explicit LightEditor(Scene& scene) : scene_(scene), lights_(editable_lights(scene)) {}
 
     std::vector<EditableLight>& lights() { return lights_; }
+    const std::vector<EditableLight>& lights() const { return lights_; }
     /// Gives a light another shape. It keeps its emission and its sides; a light without a shape becomes white and
     /// one-sided. A light whose surface is invisible (alpha 0) stays invisible.
     /// \param material  of its surface if it was no surface before

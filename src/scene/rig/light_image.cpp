@@ -151,21 +151,32 @@ std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, E
     return std::nullopt;
 }
 
+bool drop_dark_channels(EditableLight& light) {
+    const bool was_black = is_black(light);
+    const auto drop = [](auto& parts, auto image) {
+        for (auto& part : parts)
+            if (part.*image >= 0) part.radiance = lit_channels(part.radiance);
+    };
+    drop(light.parts.of<PolygonLight>(), &PolygonLight::texture);
+    drop(light.parts.of<LineLight>(), &LineLight::texture);
+    drop(light.parts.of<EnvironmentLight>(), &EnvironmentLight::map);
+    return is_black(light) && !was_black;
+}
+
 bool has_too_bright_texels(const Scene& scene, const EditableLight& light) {
-    const auto is_too_bright = [](const Float3& radiance, const Float3& mean,
-                                  const std::vector<Float3>& texels) {
-        const Float3 most = brightest_radiance(radiance, mean, texels);
+    const auto is_too_bright = [](const auto& part, const Float3& mean, const Float3& largest) {
+        const Float3 most = brightest_radiance(part.radiance, mean, largest);
         return !(std::max({most.x, most.y, most.z}) <= kMaxRadiance);
     };
     const auto shows_too_bright = [&](const auto& part) {
         if (part.texture < 0) return false;
         const TexturedEmission& emission = scene.emission_textures[static_cast<std::size_t>(part.texture)];
-        return is_too_bright(part.radiance, emission.mean, emission.texture->texels);
+        return is_too_bright(part, emission.mean, emission.largest);
     };
     const auto has_too_bright_map = [&](const EnvironmentLight& part) {
         if (part.map < 0) return false;
         const EnvironmentMapTexels& map = *scene.environment_maps[static_cast<std::size_t>(part.map)];
-        return is_too_bright(part.radiance, map.mean, map.texels);
+        return is_too_bright(part, map.mean, map.largest);
     };
     const auto& polygons = light.parts.of<PolygonLight>();
     const auto& lines = light.parts.of<LineLight>();

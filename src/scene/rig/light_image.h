@@ -19,6 +19,10 @@ std::string map_path(const Scene& scene, const EditableLight& light);
 /// \returns what does not fit the light; nothing if all is well
 std::optional<FieldDefect> change_image(const GivenImage& given, Scene& scene, EditableLight& light);
 
+/// Makes channels of a light with an image or a map black that are darker than kDarkest.
+/// \returns whether the light becomes black by that
+bool drop_dark_channels(EditableLight& light);
+
 /// Whether a texel of its images or maps makes a light brighter than kMaxRadiance.
 bool has_too_bright_texels(const Scene& scene, const EditableLight& light);
 

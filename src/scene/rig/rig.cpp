@@ -1,5 +1,7 @@
 #include "scene/rig/rig.h"
 
+#include "scene/build/lights/dark_portals.h"
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/colour/spectrum.h"
 #include "scene/input/message.h"
 #include "scene/model/polygon.h"
@@ -12,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace nusselt::scene {
@@ -130,7 +133,7 @@ public:
     }
     void apply(const RigMaterial& entry);
     void apply(const RigLight& entry);
-    void finish() { editor_.finish(); }
+    void finish();
 
 private:
     // Both throw if nothing is selected.
@@ -144,10 +147,14 @@ private:
     void move(const RigLight& entry, EditableLight& light, const Double3& offset);
     void replace_shape(const RigLight& entry, EditableLight& light, const Lights& shape);
     void change_emission(const RigLight& entry, EditableLight& light) const;
+    void warn_of_dark_lights(Warnings& warnings) const;
+    void warn_of_dark_portals(Warnings& warnings) const;
 
     Scene& scene_;
     LightEditor editor_;
     std::unordered_multiset<std::string> names_;
+    std::unordered_map<std::string, const RigLight*>
+        changed_by_; ///< the last entry for each light that has changed
 };
 
 void RigApplication::apply(const RigMaterial& entry) {
@@ -276,8 +283,12 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
         if (is_changed) refit_profile(scene_, light);
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
-    if (!changes.remove) return;
+    if (!changes.remove) {
+        changed_by_[light.name] = &entry;
+        return;
+    }
     light.is_removed = true;
+    changed_by_.erase(light.name);
     names_.erase(names_.find(light.name));
 }
 
@@ -302,6 +313,7 @@ void RigApplication::rename(const RigLight& entry, EditableLight& light) {
         fail(entry.where, "name", "light " + in_quotes(*name) + " already exists; use another name");
     names_.erase(names_.find(light.name));
     names_.insert(*name);
+    changed_by_.erase(light.name);
     light.name = *name;
 }
 
@@ -364,11 +376,48 @@ void RigApplication::change_emission(const RigLight& entry, EditableLight& light
         return c;
     };
     change_values(light, check);
+    if (drop_dark_channels(light))
+        fail(entry.where, "light " + in_quotes(light.name) + " would emit less than " + to_text(kDarkest) +
+                              " W/(sr m^2) of its image");
     const bool is_changed = changes.emission || changes.kelvin || changes.scale_radiance || changes.power ||
                             changes.image.image != nullptr || changes.image.map != nullptr;
     if (is_changed && has_too_bright_texels(scene_, light))
         fail(entry.where, "light " + in_quotes(light.name) + " would have texels with a radiance above " +
                               to_text(kMaxRadiance));
+}
+
+void warn(const RigLight& entry, const std::string& name, const std::string& clause, Warnings& warnings) {
+    warnings.add({}, entry.where + ": light " + in_quotes(name) + ": " + clause);
+}
+
+void RigApplication::warn_of_dark_lights(Warnings& warnings) const {
+    if (changed_by_.empty()) return;
+    for (const EditableLight& light : editor_.lights()) {
+        const auto change = changed_by_.find(light.name);
+        if (change == changed_by_.end() || !light.is_enabled || light.is_removed) continue;
+        if (const Darkness dark = darkness(scene_, light.parts))
+            warn(*change->second, light.name, *dark, warnings);
+    }
+}
+
+void RigApplication::warn_of_dark_portals(Warnings& warnings) const {
+    for (const EnvironmentLight& light : scene_.lights.of<EnvironmentLight>()) {
+        const std::string& name = scene_.emitters[light.emitter].name;
+        const auto change = changed_by_.find(name);
+        if (change == changed_by_.end()) continue;
+        if (const Darkness dark = portal_darkness(scene_, light))
+            warn(*change->second, name, *dark, warnings);
+    }
+}
+
+void RigApplication::finish() {
+    Warnings warnings;
+    // Those that emit nothing are no longer in the scene afterwards.
+    warn_of_dark_lights(warnings);
+    editor_.finish();
+    warn_of_dark_portals(warnings);
+    const std::vector<std::string> lines = warnings.lines();
+    scene_.warnings.insert(scene_.warnings.end(), lines.begin(), lines.end());
 }
 
 } // namespace

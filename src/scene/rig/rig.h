@@ -104,7 +104,8 @@ struct Rig {
 /// Whether a text matches a pattern with * and ?.
 bool matches(std::string_view text, std::string_view pattern);
 
-/// Applies a rig. Indices count the lights of the scene before the changes, then those that the rig adds.
+/// Applies a rig. Indices count the lights of the scene before the changes, then those that the rig adds. Scene::warnings get
+/// one for each light that the rig leaves without any emission: because of its profile, or its portal, say.
 ///
 /// Throws std::runtime_error with the entry and the field if an entry selects nothing or cannot be applied to what it
 /// selects. The scene must not be used then.

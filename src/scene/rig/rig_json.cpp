@@ -342,8 +342,9 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     LightAddition addition;
     addition.name = entry.at("add").text();
     if (!changes.shape) entry.fail("must have a shape; add one of " + any_shape());
-    if (!changes.emission && !changes.power && changes.profile.luminaire == nullptr)
-        entry.fail("must have " + with_article(quantity_of(*changes.shape)->name) + " or a power");
+    if (!changes.emission && !changes.power && changes.profile.luminaire == nullptr && !changes.image.scale)
+        entry.fail("must have " + with_article(quantity_of(*changes.shape)->name) +
+                   (changes.image.image != nullptr ? ", a power or an image_scale" : " or a power"));
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
     if (const auto material = entry.find("material")) {

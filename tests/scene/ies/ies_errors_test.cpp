@@ -169,6 +169,19 @@ TEST_F(IesFileErrors, TiltFiles) {
     EXPECT_EQ(error_of_file("lamp.ies"), "lamp.tlt: the file is empty");
 }
 
+/// A profile opens no file outside of its folder.
+TEST_F(IesFileErrors, TiltFilesAreBesideTheirProfile) {
+    write("up/lamp.tlt", "1\n2\n0 90\n1 1\n");
+    for (const std::string name :
+         {"up/lamp.tlt", "./lamp.tlt", "../lamp.tlt", "..", ".", "/etc/hostname", "up\\lamp.tlt"}) {
+        write("lamp.ies", replaced(kGood, "NONE", name));
+        EXPECT_EQ(error_of_file("lamp.ies"),
+                  "lamp.ies:3: TILT=" + name +
+                      ": the file must lie in the folder of the IES file; give its "
+                      "name alone, without a folder");
+    }
+}
+
 /// A file with a few random mistakes.
 std::string damaged(std::string text, std::mt19937& engine) {
     static const std::string kPieces[] = {

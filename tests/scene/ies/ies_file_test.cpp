@@ -115,19 +115,42 @@ TEST(IesFile, Tilt) {
     EXPECT_EQ(file.candelas[0], 100);
 }
 
+/// Lines end with LF, CR LF, or CR alone; messages count them alike.
+TEST(IesFile, AllLineEnds) {
+    const std::string text = IesText{.first_line = "IESNA91\n", .label = "[TEST] a lamp\n"}.text(kConstant);
+    const IesFile expected = parse(text);
+    for (const std::string end : {"\r\n", "\r"}) {
+        std::string other;
+        for (const char c : text) other += c == '\n' ? end : std::string(1, c);
+        const IesFile file = parse(other);
+        EXPECT_EQ(file.version, 1991);
+        EXPECT_EQ(file.keywords, expected.keywords);
+        EXPECT_EQ(file.candelas, expected.candelas);
+        const auto message = [](const std::string& damaged) -> std::string {
+            try {
+                parse(damaged);
+            } catch (const SceneError& error) {
+                return error.what();
+            }
+            return "no error";
+        };
+        EXPECT_NE(message(text + "7"), "no error");
+        EXPECT_EQ(message(other + "7"), message(text + "7"));
+    }
+}
+
 class IesFiles : public SceneTest {};
 
 TEST_F(IesFiles, AreReadBesideTheirTiltFileAndCompressed) {
-    const std::string text =
-        IesText{.first_line = "IESNA91\n", .tilt = "TILT=tilts/a lamp.tlt\n"}.text(kConstant);
-    write("tilts/a lamp.tlt", "1\n3\n0 45 90\n1 0.9 0.8\n");
+    const std::string text = IesText{.first_line = "IESNA91\n", .tilt = "TILT=a lamp.tlt\n"}.text(kConstant);
+    write("a lamp.tlt", "1\n3\n0 45 90\n1 0.9 0.8\n");
     write("lamp.ies", text);
     write("lamp.IES.gz", gzipped(text));
     for (const char* const name : {"lamp.ies", "lamp.IES.gz"}) {
         EXPECT_TRUE(is_ies_file(folder_ / name));
         const IesFile file = read_ies(folder_ / name);
         ASSERT_TRUE(file.tilt) << name;
-        EXPECT_EQ(file.tilt->file, folder_ / "tilts/a lamp.tlt");
+        EXPECT_EQ(file.tilt->file, folder_ / "a lamp.tlt");
         EXPECT_EQ(file.tilt->factors[2], 0.8);
     }
     EXPECT_FALSE(is_ies_file("lamp.pbrt"));

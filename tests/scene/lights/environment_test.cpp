@@ -141,10 +141,10 @@ TEST_F(Environments, DarkPortalsGiveAWarning) {
     for (const std::string& surfaces : {shape, object}) {
         EXPECT_TRUE(with_portal("2", surfaces, "").warnings.empty());
         EXPECT_TRUE(with_portal("0.2", surfaces, "").warnings.empty());
-        EXPECT_EQ(
-            warning(with_portal("-1", surfaces, "")),
-            "scene.pbrt:4: portal: no surface receives light through it, because the environment is black "
-            "on the side without surfaces");
+        EXPECT_EQ(warning(with_portal("-1", surfaces, "")),
+                  "scene.pbrt:4: environment: no surface receives light through its portal, because the "
+                  "environment "
+                  "is black on the side without surfaces");
     }
     // Upside down, it comes from below.
     EXPECT_TRUE(with_portal("-1", shape, "Rotate 180 1 0 0\n").warnings.empty());
@@ -204,7 +204,8 @@ TEST_F(Environments, HostileImages) {
     write_picture("black.pfm", 2, 2, [](int, int) { return Float3{0, 0, 0}; });
     const Scene black = light("LightSource \"infinite\" \"string filename\" \"black.pfm\"");
     EXPECT_TRUE(black.lights.of<EnvironmentLight>().empty());
-    EXPECT_EQ(warning(black), "scene.pbrt:3: environment: left out because its image is black");
+    EXPECT_EQ(warning(black), "scene.pbrt:3: environment: it emits no light because what it shows of the "
+                              "image 'black.pfm' is black (below 1e-30)");
     // The illuminance brightens one texel of 256 beyond the limit, but not the mean.
     write_picture("dot.pfm", 16, 16, [](int i, int j) {
         const float value = i == 8 && j == 8 ? 1.0f : 0.0f;

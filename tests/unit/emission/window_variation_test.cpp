@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <nusselt/emission/spread.h>
 #include <nusselt/emission/window_variation.h>
 #include <nusselt/sampling/polygon_projected_solid_angle.h>
 
@@ -117,6 +118,34 @@ TEST(WindowVariation, CountsWhatIsBeyondTheTableAsBlack) {
     // Points that it does not light.
     EXPECT_EQ(window_variation(seen_from(light, {0, 0, 1}), light), 0);
     EXPECT_EQ(window_variation(seen_from(light, {0.3, 0, 0}), light), 0);
+}
+
+/// From next to a huge light, one of both ways to sample it has samples, whether or not the light falls to black within its table.
+TEST(WindowVariation, LeavesHugeLightsToTheMeasure) {
+    const StoredTable<float> wide(
+        [](const auto& w) { return grey<float>(1 + 0.9 * static_cast<double>(w.x)); },
+        nusselt::RectifiedDomain<float>::hemisphere(), 32, 32, 1);
+    const nusselt::RadialSpread<float> spread{0.05f};
+    const StoredTable<float> narrow(
+        [&](const auto& w) { return grey<float>(static_cast<double>(spread.share(w))); }, spread.domain(), 32,
+        32, 1);
+    int by_cells = 0, by_measure = 0;
+    for (const StoredTable<float>* const stored : {&wide, &narrow})
+        for (const float size : {1e3f, 1e8f, 1e9f, 2e9f, 4e9f, 5e9f, 1e12f, 1e15f, 1e20f, 1e30f})
+            for (const float height : {1e-3f, 1.0f, 0.1f * size}) {
+                const auto light = portal_of(rectangle_at<float>(0, -size, size, -size, size), stored->table);
+                const auto plane = seen_from(light, {0.1f, 0.2f, -height});
+                const float variation = window_variation(plane, light);
+                ASSERT_GE(variation, 0);
+                const nusselt::WindowedPolygon<float, 8> cells(plane, light);
+                const bool is_even = variation <= kLittleVariation<float>;
+                EXPECT_TRUE(is_even || cells.measure() > 0) << size << " " << height;
+                ++(is_even ? by_measure : by_cells);
+                // Only where no cells can be found.
+                EXPECT_EQ(is_even, size > 2e9f * height) << size << " " << height;
+            }
+    EXPECT_GT(by_cells, 20);
+    EXPECT_GT(by_measure, 10);
 }
 
 TEST(WindowVariation, IsANumberForHostilePoints) {

@@ -80,31 +80,30 @@ Sides lit_sides(const Scene& scene, const EnvironmentLight& light, const PortalP
 
 } // namespace
 
-std::vector<Location> environment_origins(const BuiltShape& shapes) {
-    std::vector<Location> origins;
+std::vector<EmitterOrigin> environment_origins(const BuiltShape& shapes) {
+    std::vector<EmitterOrigin> origins;
     for (const EnvironmentLight& light : shapes.lights.of<EnvironmentLight>())
-        origins.push_back(shapes.emitters[light.emitter].location);
+        origins.push_back(shapes.emitters[light.emitter]);
     return origins;
 }
 
-void warn_of_dark_portals(const Scene& scene, const std::vector<Location>& origins, Warnings& warnings) {
+Darkness portal_darkness(const Scene& scene, const EnvironmentLight& light) {
+    if (light.portal.size() == 0 || world_triangle_count(scene) + scene.instances.size() == 0)
+        return std::nullopt;
+    const std::string clause = "no surface receives light through its portal, because ";
+    const PortalPlane plane = plane_of(light.portal);
+    const Sides surfaces = surface_sides(scene, plane);
+    if (!surfaces.before && !surfaces.beyond) return clause + "all of them are in the plane of the portal";
+    const Sides lit = lit_sides(scene, light, plane);
+    if ((surfaces.before && lit.beyond) || (surfaces.beyond && lit.before)) return std::nullopt;
+    return clause + "the environment is black on the side without surfaces";
+}
+
+void warn_of_dark_portals(const Scene& scene, const std::vector<EmitterOrigin>& origins, Warnings& warnings) {
     const auto& lights = scene.lights.of<EnvironmentLight>();
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i].portal.size() == 0) continue;
-        const PortalPlane plane = plane_of(lights[i].portal);
-        const Sides surfaces = surface_sides(scene, plane);
-        if (!surfaces.before && !surfaces.beyond) {
-            if (world_triangle_count(scene) + scene.instances.size() > 0)
-                warnings.add(origins[i],
-                             "portal: no surface receives light through it, because all of them are "
-                             "in its plane");
-            continue;
-        }
-        const Sides lit = lit_sides(scene, lights[i], plane);
-        if (!(surfaces.before && lit.beyond) && !(surfaces.beyond && lit.before))
-            warnings.add(origins[i], "portal: no surface receives light through it, because the environment "
-                                     "is black on the side without surfaces");
-    }
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (const Darkness darkness = portal_darkness(scene, lights[i]))
+            warn_of_darkness(origins[i].location, std::string(origins[i].kind), *darkness, warnings);
 }
 
 } // namespace nusselt::scene

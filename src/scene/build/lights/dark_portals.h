@@ -2,6 +2,7 @@
 /// Portals that let no light through to any surface.
 
 #include "scene/build/built_shape.h"
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/input/diagnostics.h"
 #include "scene/model/scene.h"
 
@@ -10,11 +11,14 @@
 namespace nusselt::scene {
 
 /// Where the environments of a scene come from, in their order.
-std::vector<Location> environment_origins(const BuiltShape& shapes);
+std::vector<EmitterOrigin> environment_origins(const BuiltShape& shapes);
 
-/// Warns of each portal through which no surface receives light, because the map is black on one side of its plane, and all
-/// surfaces are on the other side or in the plane. Whether something hides a portal does not count.
-/// \param origins of the environments of the scene
-void warn_of_dark_portals(const Scene& scene, const std::vector<Location>& origins, Warnings& warnings);
+/// Why no surface receives light through the portal of an environment: because the map is black on one side of its plane, and
+/// all surfaces are on the other side or in the plane. Whether something hides the portal does not count. This reads all
+/// surfaces and all texels of the map. Nothing for environments without a portal and scenes without surfaces.
+Darkness portal_darkness(const Scene& scene, const EnvironmentLight& light);
+
+/// Warns of each such portal. \param origins of the environments of the scene
+void warn_of_dark_portals(const Scene& scene, const std::vector<EmitterOrigin>& origins, Warnings& warnings);
 
 } // namespace nusselt::scene

@@ -5,7 +5,6 @@
 #include "scene/model/limits.h"
 #include "scene/model/vector_math.h"
 
-#include <algorithm>
 #include <numbers>
 
 namespace nusselt::scene {
@@ -23,11 +22,8 @@ void check_radiance(const Float3& radiance, std::string_view subject, const Loca
     check_emission(radiance, kRadiance, subject, location);
 }
 
-Float3 brightest_radiance(const Float3& radiance, const Float3& mean, const std::vector<Float3>& texels) {
-    Float3 most = {0, 0, 0};
-    for (const Float3& t : texels)
-        most = {std::max(most.x, t.x), std::max(most.y, t.y), std::max(most.z, t.z)};
-    return per_channel_product(per_channel_ratio(radiance, mean), most);
+Float3 brightest_radiance(const Float3& radiance, const Float3& mean, const Float3& largest) {
+    return per_channel_product(per_channel_ratio(radiance, mean), largest);
 }
 
 Float3 radiance_of(const Emission& emission, double area, std::string_view subject,
@@ -44,7 +40,7 @@ Emission without_texture(const Emission& emission) {
     Emission result = emission;
     result.texture = nullptr;
     if (emission.texture == nullptr) return result;
-    const Float3 mean = mean_texel(*emission.texture);
+    const Float3 mean = lit_channels(mean_texel(*emission.texture));
     result.radiance = per_channel_product(emission.radiance, mean);
     if (const double brightness = luminance(to_double(mean)); emission.power && brightness > 0)
         result.power = *emission.power / brightness;

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 namespace nusselt::scene {
 
@@ -35,8 +34,9 @@ void check_emission(const Float3& value, const EmissionQuantity& quantity, std::
 void check_radiance(const Float3& radiance, std::string_view subject, const Location& location);
 
 /// The radiance in each channel where a texel is largest [W/(sr m^2)]: what must not exceed kMaxRadiance once all is scaled.
-/// \param radiance  of the light, for the mean of its texels
-Float3 brightest_radiance(const Float3& radiance, const Float3& mean, const std::vector<Float3>& texels);
+/// \param radiance       of the light, for the mean of its texels
+/// \param mean, largest  of the texels
+Float3 brightest_radiance(const Float3& radiance, const Float3& mean, const Float3& largest);
 
 /// The radiance of a shape of this area [m^2], which counts one side even if both emit. Throws SceneError at
 /// `location` if the radiance is above kMaxRadiance.

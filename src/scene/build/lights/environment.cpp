@@ -90,10 +90,13 @@ void fill_rows(const ImageLookup& lookup, bool keeps_texels, EnvironmentMapTexel
     });
 }
 
-void set_mean(EnvironmentMapTexels& map) {
+void set_mean_and_largest(EnvironmentMapTexels& map) {
     Double3 sum;
-    for (const Float3& texel : map.texels) sum = sum + to_double(texel);
-    map.mean = to_float((1.0 / static_cast<double>(map.texels.size())) * sum);
+    for (const Float3& texel : map.texels) {
+        sum = sum + to_double(texel);
+        map.largest = per_channel_maximum(map.largest, texel);
+    }
+    map.mean = lit_channels(to_float((1.0 / static_cast<double>(map.texels.size())) * sum));
 }
 
 } // namespace
@@ -133,7 +136,7 @@ EnvironmentMapTexels make_sky_map(const SkyDescription& description) {
         const auto below = [&](const Vec3<double>& d) { return d.z < 0 ? ground : Double3{}; };
         texel = to_float(to_double(texel) + mean_over_texel(i, j, map.size, points, below));
     });
-    set_mean(map);
+    set_mean_and_largest(map);
     return map;
 }
 
@@ -152,7 +155,7 @@ EnvironmentMapTexels make_environment_map_texels(const Texture& image, Environme
     const bool keeps_texels = kind == EnvironmentImage::octahedral && image.width == map.size &&
                               image.height == map.size && is_power_of_two(image.width);
     fill_rows(ImageLookup(image, kind), keeps_texels, map);
-    set_mean(map);
+    set_mean_and_largest(map);
     return map;
 }
 

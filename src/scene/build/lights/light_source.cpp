@@ -1,6 +1,7 @@
 #include "scene/build/lights/light_source.h"
 
 #include "scene/build/lights/emission.h"
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"
 #include "scene/model/profiles/profile_radiance.h"
@@ -90,7 +91,7 @@ void fit_image(const LightSourceDescription& source, const Texture* texture, Poi
                          subject_of(source) + ": the image '" + texture->name +
                              "' is too bright; its integral over all directions must be at most " +
                              to_text(kMaxRadiance) + " sr, found " + to_text(largest));
-    light.image_integral = to_float(integral);
+    light.image_integral = lit_channels(to_float(integral));
 }
 
 /// Gives a light its luminaire. Its intensity becomes that of the peak.
@@ -105,24 +106,27 @@ void set_luminaire(const LightSourceDescription& source, PointLight& light, Buil
                                    to_double(light.intensity));
 }
 
-/// Whether the light shines.
-bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light,
-            BuiltShape& shapes) {
-    if (source.luminaire != nullptr) set_luminaire(source, light, shapes);
-    if (is_image(light.distribution))
-        fit_image(source, light.texture < 0 ? nullptr : &textures[static_cast<std::size_t>(light.texture)],
-                  light);
+Darkness finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light,
+                BuiltShape& shapes) {
+    if (source.luminaire != nullptr) {
+        if (Darkness black = darkness(*source.luminaire)) return black;
+        set_luminaire(source, light, shapes);
+    }
+    const Texture* const image =
+        light.texture < 0 ? nullptr : &textures[static_cast<std::size_t>(light.texture)];
+    if (is_image(light.distribution)) fit_image(source, image, light);
     const Double3 directions = solid_angle(light);
-    if (is_black(to_float(per_channel_product(directions, to_double(light.intensity))))) return false;
+    if (image != nullptr && is_black(to_float(per_channel_product(directions, to_double(light.intensity)))))
+        return black_image(image->name);
     if (source.power)
         light.intensity = to_float((*source.power / luminance(directions)) * to_double(light.intensity));
     check_emission(light.intensity, kIntensity, subject_of(source), source.origin);
-    return true;
+    return std::nullopt;
 }
 
-bool finish(const LightSourceDescription& /*source*/, const std::vector<Texture>& /*textures*/,
-            const DistantLight& /*light*/, BuiltShape& /*shapes*/) {
-    return true;
+Darkness finish(const LightSourceDescription& /*source*/, const std::vector<Texture>& /*textures*/,
+                const DistantLight& /*light*/, BuiltShape& /*shapes*/) {
+    return std::nullopt;
 }
 
 /// The kind of an image, which is that in latitudes if its proportions do not tell.
@@ -136,8 +140,8 @@ EnvironmentImage image_kind(const LightSourceDescription& source, const Texture&
     return kind.value_or(EnvironmentImage::latitude);
 }
 
-bool finish(const LightSourceDescription& source, const std::vector<Texture>& textures,
-            EnvironmentLight& light, BuiltShape& shapes) {
+Darkness finish(const LightSourceDescription& source, const std::vector<Texture>& textures,
+                EnvironmentLight& light, BuiltShape& shapes) {
     Double3 irradiance = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
     if (light.map >= 0 || source.sky) {
         const auto of_image = [&] {
@@ -148,19 +152,20 @@ bool finish(const LightSourceDescription& source, const std::vector<Texture>& te
             std::make_shared<EnvironmentMapTexels>(source.sky ? make_sky_map(*source.sky) : of_image());
         irradiance = irradiance_of(*map);
         light.radiance = per_channel_product(light.radiance, map->mean);
+        if (is_black(light.radiance)) return black_image(map->name);
         light.map = static_cast<std::int32_t>(shapes.environment_maps.size());
         shapes.environment_maps.push_back(std::move(map));
     }
-    if (is_black(light.radiance)) return false;
     if (const double brightness = luminance(irradiance); source.irradiance && brightness > 0)
         light.radiance = to_float((*source.irradiance / brightness) * to_double(light.radiance));
     check_radiance(light.radiance, subject_of(source), source.origin);
-    if (light.map >= 0) {
-        const EnvironmentMapTexels& map = *shapes.environment_maps.back();
-        check_radiance(brightest_radiance(light.radiance, map.mean, map.texels), subject_of(source),
-                       source.origin);
-    }
-    return true;
+    if (light.map < 0) return std::nullopt;
+    const EnvironmentMapTexels& map = *shapes.environment_maps.back();
+    light.radiance = lit_channels(light.radiance);
+    if (is_black(light.radiance)) return black_image(map.name);
+    check_radiance(brightest_radiance(light.radiance, map.mean, map.largest), subject_of(source),
+                   source.origin);
+    return std::nullopt;
 }
 
 } // namespace
@@ -191,10 +196,8 @@ void add_light_sources(const std::vector<LightSourceDescription>& sources,
                        const std::vector<Texture>& textures, BuiltShape& shapes) {
     for (const LightSourceDescription& source : sources) {
         const auto add = [&](auto light) {
-            if (!finish(source, textures, light, shapes)) {
-                shapes.warnings.add(source.origin, subject_of(source) + ": left out because its " +
-                                                       (source.luminaire != nullptr ? "profile" : "image") +
-                                                       " is black");
+            if (const Darkness darkness = finish(source, textures, light, shapes)) {
+                warn_of_darkness(source.origin, subject_of(source), *darkness, shapes.warnings);
                 return;
             }
             light.emitter = static_cast<std::uint32_t>(shapes.emitters.size());

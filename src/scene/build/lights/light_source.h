@@ -43,7 +43,7 @@ struct LightFrame {
 /// the transform is singular or not finite.
 std::optional<LightFrame> light_frame(const Transform& world_from_light);
 
-/// Adds light sources with an emitter for each. Those whose image is black are left out with a warning.
+/// Adds light sources with an emitter for each. Those whose image or profile is black are left out with a warning.
 /// \param textures of the scene
 /// \throws SceneError if an emission is out of range, or an image does not fit its light
 void add_light_sources(const std::vector<LightSourceDescription>& sources,

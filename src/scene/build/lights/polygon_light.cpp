@@ -1,5 +1,6 @@
 #include "scene/build/lights/polygon_light.h"
 
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/build/lights/profiled_light.h"
 #include "scene/build/lights/textured_light.h"
 #include "scene/build/polygons/polygon_merge.h"
@@ -30,11 +31,15 @@ void orient_by_shading_normals(Mesh& mesh) {
 
 void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& words,
                           PolygonPartition&& partition, BuiltShape& built) {
+    const Emission emission = without_texture(shape.emission);
+    if (is_black(emission.radiance)) {
+        make_dark(shape, black_image(shape.emission.texture->name), built);
+        return;
+    }
     if (shape.emission.texture != nullptr)
         built.warnings.add(shape.origin, "image without texture coordinates",
                            subject_of(shape) +
                                ": without texture coordinates, the mean colour of the image is emitted");
-    const Emission emission = without_texture(shape.emission);
     const Float3 radiance = radiance_of(emission, area(built), words.emission, shape.origin);
     built.triangle_light = std::move(partition.polygon_of_triangle);
     std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();

@@ -1,5 +1,6 @@
 #include "scene/build/lights/profiled_light.h"
 
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/model/profiles/line_profile.h"
 #include "scene/model/profiles/profile_radiance.h"
 #include "scene/model/vector_math.h"
@@ -58,6 +59,13 @@ std::string loss_of(const EmissionProfile& profile) {
     }
 }
 
+/// Why none of the lights of a shape emits anything.
+Darkness darkness(const ProfiledShape& profiled) {
+    for (const ProfiledEmission& emission : profiled.emissions)
+        if (!darkness(emission)) return std::nullopt;
+    return darkness(profiled.emissions.front());
+}
+
 void warn_of_lost_flux(const ShapeDescription& shape, const EmissionProfile& profile, Warnings& warnings) {
     constexpr double kWorthMentioning = 0.01;
     if (profile.luminaire == nullptr || !(profile.lost > kWorthMentioning)) return;
@@ -85,6 +93,16 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
     std::optional<ProfiledShape> profiled =
         profile_shape(lights, edge_from(lights.front(), first), *shape.emission.profile);
     built.triangle_light = std::move(partition.polygon_of_triangle);
+    const std::shared_ptr<const Luminaire>& luminaire = shape.emission.profile->luminaire;
+    Darkness dark;
+    if (profiled)
+        dark = darkness(*profiled);
+    else if (luminaire != nullptr)
+        dark = darkness(*luminaire);
+    if (dark) {
+        make_dark(shape, *dark, built);
+        return;
+    }
     if (profiled) {
         const std::vector<Float3> radiance =
             radiances(shape.emission, shape.origin, words.emission, lights, *profiled);
@@ -109,6 +127,10 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
 void add_profiled_line(const ShapeDescription& shape, const FormatWords& words, LineLight light,
                        BuiltShape& built) {
     ProfiledShape profiled = profile_line(light, *shape.emission.profile);
+    if (const Darkness dark = darkness(profiled.emissions.front())) {
+        make_dark(shape, *dark, built);
+        return;
+    }
     Emission outwards = shape.emission;
     outwards.two_sided = false;
     light.radiance = radiances(outwards, shape.origin, words.emission, std::vector{light}, profiled).front();

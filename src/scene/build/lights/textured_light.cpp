@@ -1,5 +1,6 @@
 #include "scene/build/lights/textured_light.h"
 
+#include "scene/build/lights/emission_warnings.h"
 #include "scene/build/textures/emission_images.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/library_vector.h"
@@ -154,17 +155,13 @@ public:
         }
     }
 
-    /// Warns of polygons that show nothing but black, which are surfaces without light. \returns whether all of them are
-    bool warn_if_black() const {
-        if (black_ == 0) return false;
-        const std::string all = std::to_string(black_ + lights_.size());
-        built_.warnings.add(
-            shape_.origin, "black images of lights",
-            subject_of(shape_) + ": " +
-                (lights_.empty() ? "it emits no light because its part of the image is black"
-                                 : std::to_string(black_) + " of " + all +
-                                       " polygons emit no light because their part of the image is black"));
-        return lights_.empty();
+    /// Warns if only some polygons show anything but black. The others are surfaces without light.
+    void warn_of_black_parts() const {
+        if (black_ == 0 || lights_.empty()) return;
+        built_.warnings.add(shape_.origin, "black parts of images",
+                            subject_of(shape_) + ": " + std::to_string(black_) + " of " +
+                                std::to_string(black_ + lights_.size()) +
+                                " polygons emit no light because their part of the image is black");
     }
 
     /// The area of all lights, each times the luminance of its mean texel [m^2].
@@ -176,7 +173,8 @@ public:
 
     /// Adds the lights to the shape. \param radiance of a texel of 1
     void finish(const Float3& radiance) {
-        for (PolygonLight& light : lights_) light.radiance = per_channel_product(radiance, light.radiance);
+        for (PolygonLight& light : lights_)
+            light.radiance = lit_channels(per_channel_product(radiance, light.radiance));
         built_.lights.of<PolygonLight>() = std::move(lights_);
         if (textured_ > kMaxTexturedPolygons)
             built_.warnings.add(shape_.origin, "many textured lights",
@@ -267,7 +265,7 @@ ShownImage show_image(const std::shared_ptr<const EmissionTexture>& image,
     shown.is_far = std::max(columns.size(), rows.size()) > kMaxEmissionTextureSize ||
                    columns.size() * rows.size() > kMaxWindowTexels;
     if (shown.is_far) {
-        shown.emission.mean = mean_texel(*image);
+        shown.emission.mean = lit_channels(mean_texel(*image));
         return shown;
     }
     std::vector<Vec2<float>> outline;
@@ -275,10 +273,11 @@ ShownImage show_image(const std::shared_ptr<const EmissionTexture>& image,
         outline.push_back({columns.relative(p.x, image->width), rows.relative(p.y, image->height)});
     std::shared_ptr<const EmissionTexture> texture = part_of_image(image, columns, rows);
     if (!(area_of(outline) * columns.size() * rows.size() > kLeastArea)) {
-        shown.emission.mean = mean_of_corners(*texture, outline);
+        shown.emission.mean = lit_channels(mean_of_corners(*texture, outline));
         return shown;
     }
-    shown.emission.mean = mean_over(*texture, outline);
+    shown.emission.mean = lit_channels(mean_over(*texture, outline));
+    shown.emission.largest = largest_texel(*texture);
     shown.emission.texture = std::move(texture);
     for (std::size_t k = 0; k < outline.size(); ++k)
         shown.emission.coordinates[k] = {outline[k].x, outline[k].y};
@@ -292,15 +291,21 @@ void add_textured_polygons(const ShapeDescription& shape, const FormatWords& wor
                            PolygonPartition&& partition, BuiltShape& built) {
     TexturedPolygons polygons(shape, built);
     polygons.add(std::move(partition));
-    if (polygons.warn_if_black()) return;
-    const Float3 radiance = radiance_of(shape.emission, polygons.bright_area(), words.emission, shape.origin);
-    polygons.finish(radiance);
-    for (const PolygonLight& light : built.lights.of<PolygonLight>()) {
+    polygons.warn_of_black_parts();
+    if (const double area = polygons.bright_area(); area > 0)
+        polygons.finish(radiance_of(shape.emission, area, words.emission, shape.origin));
+    const std::vector<PolygonLight>& lights = built.lights.of<PolygonLight>();
+    if (std::all_of(lights.begin(), lights.end(),
+                    [](const PolygonLight& light) { return is_black(light.radiance); })) {
+        make_dark(shape, black_image(shape.emission.texture->name), built);
+        return;
+    }
+    for (const PolygonLight& light : lights) {
         check_radiance(light.radiance, words.emission, shape.origin);
         if (light.texture < 0) continue;
         const TexturedEmission& emission = built.emission_textures[static_cast<std::size_t>(light.texture)];
-        check_radiance(brightest_radiance(light.radiance, emission.mean, emission.texture->texels),
-                       words.emission, shape.origin);
+        check_radiance(brightest_radiance(light.radiance, emission.mean, emission.largest), words.emission,
+                       shape.origin);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "scene/build/lights/textured_tube.h"
 
+#include "scene/build/lights/emission_warnings.h"
+#include "scene/build/textures/emission_images.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/vector_math.h"
 
@@ -68,13 +70,14 @@ TexturedEmission show_rows(const EmissionTexture& image, const LineLight& light)
     const Rows rows = rows_of(image);
     std::vector<Float3> texels = reduced(rows.mean, std::min<std::size_t>(rows.mean.size(), kMaxLineTexels));
     TexturedEmission shown;
-    shown.mean = mean_over(texels, light);
+    shown.mean = lit_channels(mean_over(texels, light));
     const bool is_uniform =
         std::all_of(texels.begin(), texels.end(), [&](const Float3& t) { return t == texels.front(); });
     if (is_uniform) return shown;
     const int count = static_cast<int>(texels.size());
     shown.texture = std::make_shared<const EmissionTexture>(
         EmissionTexture{image.name, 1, count, std::move(texels), image.path});
+    shown.largest = largest_texel(*shown.texture);
     return shown;
 }
 
@@ -93,7 +96,7 @@ void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, 
     const TexturedEmission shown = show_rows(image, light);
     const Float3& mean = shown.mean;
     if (is_black(mean)) {
-        built.warnings.add(shape.origin, subject_of(shape) + ": skipped because its image is black");
+        make_dark(shape, black_image(image.name), built);
         return;
     }
 
@@ -101,10 +104,14 @@ void add_textured_tube(const ShapeDescription& shape, const FormatWords& words, 
     outwards.two_sided = false;
     const Float3 radiance =
         radiance_of(outwards, area(light) * luminance(to_double(mean)), words.emission, shape.origin);
-    light.radiance = per_channel_product(radiance, mean);
+    light.radiance = lit_channels(per_channel_product(radiance, mean));
+    if (is_black(light.radiance)) {
+        make_dark(shape, black_image(image.name), built);
+        return;
+    }
     check_radiance(light.radiance, words.emission, shape.origin);
     if (shown.texture != nullptr) {
-        check_radiance(brightest_radiance(light.radiance, shown.mean, shown.texture->texels), words.emission,
+        check_radiance(brightest_radiance(light.radiance, shown.mean, shown.largest), words.emission,
                        shape.origin);
         light.texture = static_cast<std::int32_t>(built.emission_textures.size());
         built.emission_textures.push_back(shown);

@@ -46,4 +46,10 @@ Float3 mean_texel(const EmissionTexture& texture) {
     return to_float((1 / static_cast<double>(texture.texels.size())) * sum);
 }
 
+Float3 largest_texel(const EmissionTexture& texture) {
+    Float3 largest = {0, 0, 0};
+    for (const Float3& texel : texture.texels) largest = per_channel_maximum(largest, texel);
+    return largest;
+}
+
 } // namespace nusselt::scene

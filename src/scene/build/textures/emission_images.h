@@ -23,5 +23,7 @@ private:
 
 /// The mean of all texels.
 Float3 mean_texel(const EmissionTexture& texture);
+/// The largest number of each channel.
+Float3 largest_texel(const EmissionTexture& texture);
 
 } // namespace nusselt::scene

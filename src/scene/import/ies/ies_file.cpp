@@ -81,6 +81,12 @@ IesTilt read_tilt(IesNumbers& numbers) {
 }
 
 IesTilt read_tilt_file(const Location& location, std::string_view name) {
+    // A profile that someone else has written must not open files elsewhere.
+    if (name == "." || name == ".." || name.find_first_of("/\\") != std::string_view::npos)
+        throw SceneError(location,
+                         "TILT=" + std::string(shortened(name)) +
+                             ": the file must lie in the folder of the IES file; give its name alone, "
+                             "without a folder");
     SourceFile source;
     source.path = location.file->path.parent_path() / std::string(name);
     try {
@@ -133,9 +139,10 @@ public:
 
 private:
     std::string_view next_line() {
-        const std::size_t end = rest_.find('\n');
+        std::size_t end = 0;
+        while (end < rest_.size() && !ends_line(rest_, end)) ++end;
         const std::string_view line = trimmed(rest_.substr(0, end));
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
         ++line_;
         return line;
     }

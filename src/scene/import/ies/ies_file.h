@@ -65,7 +65,7 @@ struct IesFile {
 IesFile read_ies(const std::filesystem::path& path);
 
 /// The same for its contents.
-/// \param source  names the file; a TILT file is looked for beside it
+/// \param source  names the file; a TILT file must lie beside it
 IesFile parse_ies(const SourceFile& source, std::string_view text);
 
 /// Whether a file of this name is an IES file: its extension is .ies or .IES, perhaps with .gz behind.

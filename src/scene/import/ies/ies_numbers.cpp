@@ -20,11 +20,16 @@ std::string ordinal(std::string_view what, std::size_t index, std::size_t count)
 
 } // namespace
 
+bool ends_line(std::string_view text, std::size_t at) {
+    const bool is_pair = text[at] == '\r' && at + 1 < text.size() && text[at + 1] == '\n';
+    return text[at] == '\n' || (text[at] == '\r' && !is_pair);
+}
+
 /// The next word, or nothing at the end.
 std::string_view IesNumbers::word() {
     std::size_t begin = 0;
     for (; begin < rest_.size() && is_separator(rest_[begin]); ++begin)
-        if (rest_[begin] == '\n') ++line_;
+        if (ends_line(rest_, begin)) ++line_;
     std::size_t end = begin;
     while (end < rest_.size() && !is_separator(rest_[end])) ++end;
     const std::string_view result = rest_.substr(begin, end - begin);

@@ -13,6 +13,9 @@
 
 namespace nusselt::scene {
 
+/// Whether a line ends with this character: lines end with LF, CR LF, or with CR alone as on old Macintoshes.
+bool ends_line(std::string_view text, std::size_t at);
+
 /// Reads numbers that are separated by blanks, commas and line ends. Messages name what was expected, and its line.
 class IesNumbers {
 public:

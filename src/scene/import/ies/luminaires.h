@@ -9,7 +9,7 @@
 
 namespace nusselt::scene {
 
-/// Reads an IES file as a luminaire. Throws as read_ies() does.
+/// Reads an IES file as a luminaire, which is black if no intensity reaches kDarkest. Throws as read_ies() does.
 std::shared_ptr<const Luminaire> read_luminaire(const std::filesystem::path& path);
 
 /// The luminaires of one scene. Each file is read once.

@@ -461,8 +461,7 @@ void Parser::light_source() {
     }
     light.world_from_light = state_.current().ctm;
     light.version = version_;
-    light.image_path = resolve(light.parameters.string(image_parameter(version_), ""));
-    light.ies_path = resolve(light.parameters.string("ies", ""));
+    light.resolve = [this](const std::string& name) { return resolve(name); };
     if (auto source =
             read_light_source(light, textures_.planner(), emission_files_.luminaires, scene_.warnings))
         scene_.light_sources.push_back(std::move(*source));

@@ -16,8 +16,9 @@ struct EnvironmentMapTexels {
     std::string name;
     int size = 0;               ///< columns and rows: a power of two from 16 to 4096
     std::vector<Float3> texels; ///< finite and not negative
-    Float3 mean = {0, 0, 0};    ///< over all directions
+    Float3 mean = {0, 0, 0};    ///< over all directions; 0 in channels where it is below kDarkest
     std::string path = {};      ///< of its file; empty for skies by formulas
+    Float3 largest = {0, 0, 0}; ///< of the texels, for each channel
 };
 
 /// A sky around the scene. Cameras see it where they see nothing else. It has the radiance `radiance` * t / mean where the map

@@ -28,9 +28,10 @@ struct TexturedEmission {
     std::shared_ptr<const EmissionTexture> texture;
     /// Of polygons, the texture coordinates of the vertices, in [0, 1]: an affine function of their positions.
     std::array<Float2, 8> coordinates = {};
-    Float3 mean = {0, 0, 0}; ///< of the texture over the light
+    Float3 mean = {0, 0, 0}; ///< of the texture over the light; 0 in channels where it is below kDarkest
     /// The part of the image of the file that the texture shows: from `part_begin` to `part_end` in texture coordinates.
     Float2 part_begin = {0, 0}, part_end = {1, 1};
+    Float3 largest = {0, 0, 0}; ///< of its texels, for each channel
 };
 
 struct PolygonLight;

@@ -258,7 +258,7 @@ std::optional<ProfiledShape> profile_shape(std::span<const PolygonLight> lights,
         ProfiledEmission& emission = shape.emissions.emplace_back();
         emission.x_axis = to_float(polygon.to_local(frame.x));
         emission.z_axis = to_float(polygon.to_local(frame.z));
-        emission.mean = static_cast<float>(mean.spread);
+        emission.mean = static_cast<float>(mean.spread < kDarkest ? 0 : mean.spread);
         if (request.luminaire == nullptr) continue;
         shape.radiance.push_back(mean.unspread / kLumensPerWatt);
         flux += (light.two_sided ? 2 : 1) * kPi * area(light) * mean.unspread;

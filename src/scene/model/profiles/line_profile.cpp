@@ -124,7 +124,8 @@ ProfiledShape profile_line(const LineLight& light, const ProfileRequest& request
         profile.lost = whole > 0 ? std::clamp(1 - flux / whole, 0.0, 1.0) : 0;
         const double all = kPi * area(light);
         shape.radiance = {flux / (all * kLumensPerWatt)};
-        emission.mean = static_cast<float>((slope ? spread_flux(profile, *slope) : flux) / all);
+        const double mean = (slope ? spread_flux(profile, *slope) : flux) / all;
+        emission.mean = static_cast<float>(mean < kDarkest ? 0 : mean);
     }
     emission.profile = std::make_shared<const EmissionProfile>(std::move(profile));
     return shape;

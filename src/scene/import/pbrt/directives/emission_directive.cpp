@@ -71,8 +71,12 @@ Emission read_emission(const std::string& type, ParameterList& parameters, const
     }
     Emission emission;
     emission.power = read_power(parameters);
-    Float3 colour = parameters.colour("L", {1, 1, 1}, warnings, SpectrumUse::illuminant);
+    const std::optional<Float3> given = parameters.optional_colour("L", warnings, SpectrumUse::illuminant);
+    Float3 colour = given.value_or(Float3{1, 1, 1});
     if (!parameters.string("filename", "").empty()) {
+        if (given)
+            warnings.add(parameters.location_of("L"),
+                         "AreaLightSource: L is ignored, because the image has the colours; use \"scale\"");
         ImageRequest request;
         request.path = paths.image;
         request.location = parameters.location_of("filename");

@@ -44,6 +44,8 @@ public:
 
 private:
     bool is_v3() const { return directive_.version == PbrtVersion::v3; }
+    /// The parameter that names the image.
+    std::string_view image_parameter() const { return is_v3() ? "mapname" : "filename"; }
     [[noreturn]] void fail(std::string_view parameter, const std::string& message) const {
         throw SceneError(parameters_.location_of(parameter), subject() + ": " + message);
     }
@@ -105,18 +107,26 @@ void LightSourceReader::warn_of_skew(const LightFrame& frame) const {
 }
 
 int LightSourceReader::image(int channels, TextureWrap wrap) {
-    const std::string_view name = image_parameter(directive_.version);
-    if (parameters_.string(name, "").empty()) return -1;
+    const std::string_view name = image_parameter();
+    const std::string file = parameters_.string(name, "");
+    if (file.empty()) return -1;
     TextureNode node;
     node.operation = TextureOperation::image;
-    node.image = textures_.image({directive_.image_path, ImageRequest::kSrgb, parameters_.location_of(name)});
+    node.image =
+        textures_.image({directive_.resolve(file), ImageRequest::kSrgb, parameters_.location_of(name)});
     node.wrap = wrap;
     node.filter = is_v3() ? TextureFilter::bilinear : TextureFilter::nearest;
     return textures_.request(textures_.formulas().add(node), channels, parameters_.location());
 }
 
 std::shared_ptr<const Luminaire> LightSourceReader::luminaire(PointLight& light) {
-    if (parameters_.string("ies", "").empty()) return nullptr;
+    const std::string file = parameters_.string("ies", "");
+    if (file.empty()) return nullptr;
+    for (const std::string_view name : {"coneangle", "conedeltaangle"})
+        if (is_cone(light.distribution) && parameters_.optional_real(name))
+            warnings_.add(parameters_.location_of(name), subject() + ": " + std::string(name) +
+                                                             " is ignored, because \"ies\" tells where the "
+                                                             "light shines");
     const double angle = parameters_.real("iesangle", 0);
     if (!(std::fabs(angle) <= 3600)) fail("iesangle", "iesangle must be from -3600 to 3600 degrees");
     const double turn = angle * (std::numbers::pi / 180);
@@ -135,9 +145,9 @@ std::shared_ptr<const Luminaire> LightSourceReader::luminaire(PointLight& light)
     // The lumens of the file are right for any colour.
     if (const double brightness = luminance(to_double(light.intensity)); brightness > 0)
         light.intensity = to_float((parameters_.real("scale", 1) / brightness) * to_double(light.intensity));
-    if (!parameters_.named_files().note(parameters_.location_of("ies"), "IES file", directive_.ies_path))
-        return nullptr;
-    return luminaires_.read(directive_.ies_path);
+    const std::filesystem::path path = directive_.resolve(file);
+    if (!parameters_.named_files().note(parameters_.location_of("ies"), "IES file", path)) return nullptr;
+    return luminaires_.read(path);
 }
 
 PointLight LightSourceReader::point() {
@@ -194,7 +204,7 @@ PointLight LightSourceReader::goniometric() {
             is_v3() ? PointDistribution::latitude_image : PointDistribution::octahedral_image;
     else
         warnings_.add(parameters_.location(), subject() + ": without \"string " +
-                                                  std::string(image_parameter(directive_.version)) +
+                                                  std::string(image_parameter()) +
                                                   "\" it is equally bright in all directions");
     return light;
 }
@@ -354,10 +364,6 @@ bool is_dark(const LightSourceDescription& source) {
 } // namespace
 
 bool is_supported_light_source(std::string_view type) { return find_type(type) != nullptr; }
-
-std::string_view image_parameter(PbrtVersion version) {
-    return version == PbrtVersion::v3 ? "mapname" : "filename";
-}
 
 std::optional<LightSourceDescription> read_light_source(LightSourceDirective& directive,
                                                         TexturePlanner& textures, Luminaires& luminaires,

@@ -6,6 +6,7 @@
 #include "scene/import/pbrt/textures.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,14 +18,10 @@ struct LightSourceDirective {
     ParameterList parameters;
     Transform world_from_light;
     PbrtVersion version = PbrtVersion::v4;
-    std::filesystem::path image_path; ///< of the file that image_parameter() names; unused if there is none
-    std::filesystem::path ies_path;   ///< of the file that the parameter "ies" names; unused if there is none
+    std::function<std::filesystem::path(const std::string&)> resolve; ///< the path of a file that it names
 };
 
 bool is_supported_light_source(std::string_view type);
-
-/// The parameter that names the image of a light.
-std::string_view image_parameter(PbrtVersion version);
 
 /// Reduces a LightSource directive of a supported type; docs/materials.md has the rules. Nothing, with a warning, if it does
 /// not emit light. Throws SceneError at values out of range, and if the transform is singular.
