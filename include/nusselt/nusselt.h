@@ -22,6 +22,7 @@
 #include <nusselt/estimate/reflected_offsets.h>
 #include <nusselt/line_emission/line_nodes.h>
 #include <nusselt/line_emission/line_profile_words.h>
+#include <nusselt/line_emission/visible_part.h>
 #include <nusselt/line_samples/partial_shadow.h>
 #include <nusselt/line_samples/phong.h>
 #include <nusselt/line_samples/shading.h>

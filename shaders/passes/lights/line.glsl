@@ -8,6 +8,7 @@
 
 #include "nusselt/geometry/cylinder_caps.glsl"
 #include "nusselt/geometry/strip.glsl"
+#include "nusselt/line_emission/visible_part.glsl"
 #include "passes/lights/light_role.glsl"
 #include "passes/lights/line_emission_profile.glsl"
 #include "passes/lights/line_profile.glsl"
@@ -46,6 +47,17 @@ LocalTube tube_of(const LocalLine light) {
                      light.role);
 }
 
+/// A light without what its spread hides.
+LineSegment visible_shape(const LocalLine light) {
+    float inverse_slope = emission_float(light.emission_profile.profile + kProfileInverseSlope);
+    if (!(inverse_slope > 0.0)) return light.shape;
+    float slope = 1.0 / inverse_slope;
+    if (is_tube(light)) return visible_part_of_tube(light.shape, light.radius, slope);
+    if (light.model == kStrip)
+        return visible_part_of_strip(light.shape, light.emission_profile.axes.normal, slope);
+    return visible_part(light.shape, slope);
+}
+
 /// \param index among the lines and tubes
 LocalLine local_line(const Surface surface, uint index) {
     LineLightRecord record = line_lights[index];
@@ -56,6 +68,7 @@ LocalLine local_line(const Surface surface, uint index) {
     light.radius = record.radius;
     light.radiance = LineRadiance(record.first_texture_word, to_vec(record.inverse_mean));
     light.emission_profile = local_emission_profile(record.first_profile_word, surface.shading);
+    if (has_emission_profile(light.emission_profile)) light.shape = visible_shape(light);
     vec3 s = light.shape.s;
     float highest = nusselt_max(light.shape.p0.z, light.shape.p0.z + light.shape.len * s.z);
     light.width = 1.0;
@@ -65,7 +78,7 @@ LocalLine local_line(const Surface surface, uint index) {
         light.width = record.radius;
     if (light.model == kStrip)
         light.width *= strip_facing(light.shape, frame_to_local(surface.shading, to_vec(record.normal)));
-    light.role = LightRole(!(highest <= 0.0), light.width * to_vec(record.radiance), light_number(kLineKind, index));
+    light.role = LightRole(!(highest <= 0.0) && !(light.shape.len <= 0.0), light.width * to_vec(record.radiance), light_number(kLineKind, index));
     return light;
 }
 

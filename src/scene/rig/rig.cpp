@@ -153,8 +153,8 @@ private:
     Scene& scene_;
     LightEditor editor_;
     std::unordered_multiset<std::string> names_;
-    std::unordered_map<std::string, const RigLight*>
-        changed_by_; ///< the last entry for each light that has changed
+    /// The last entry of each light that it may have left dark.
+    std::unordered_map<std::string, const RigLight*> changed_by_;
 };
 
 void RigApplication::apply(const RigMaterial& entry) {
@@ -283,12 +283,14 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
         if (is_changed) refit_profile(scene_, light);
     }
     if (changes.enabled) light.is_enabled = *changes.enabled;
+    // Most lights have nothing that could leave them dark, and there may be a million of them.
+    changed_by_.erase(light.name);
     if (!changes.remove) {
-        changed_by_[light.name] = &entry;
+        if (darkness(scene_, light.parts) || !light.parts.of<EnvironmentLight>().empty())
+            changed_by_[light.name] = &entry;
         return;
     }
     light.is_removed = true;
-    changed_by_.erase(light.name);
     names_.erase(names_.find(light.name));
 }
 

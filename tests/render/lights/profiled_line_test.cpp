@@ -303,21 +303,23 @@ TEST(ProfiledLine, CamerasSeeNarrowSpreads) {
     }
 }
 
-/// What a light that is longer than its bright part gives to the point below it. Bright are a disc of slopes on a cylinder and a
-/// part of a strip, which counts as a line.
+/// What a light that is longer than its bright part, even much longer, gives to the point below it. Bright are a disc of slopes on
+/// a cylinder and a part of a strip, which counts as a line.
 TEST(ProfiledLine, NarrowSpreadsLightTheFloor) {
     for (const double spread : kNarrowSpreads) {
         const double slope = std::tan(0.5 * spread * kDegree);
         for (const TubeModel model : {TubeModel::solid, TubeModel::strip}) {
-            scene::Scene scene = make_narrow(model, spread, 3 * slope);
-            set_camera(scene, {0, -0.1f, 0.1f}, {0, 0, 0}, {0, 1, 0}, 1e-6, 1, 1);
-            const bool is_strip = model == TubeModel::strip;
-            const double expected = kRadius * (is_strip ? 6 / slope : kPi);
-            // Of the samples on the tube, few are in the bright band along it. They are stratified.
-            const int samples = is_strip ? 256 : 1 << 18;
-            const double tolerance = 0.003 + (is_strip ? 0 : 1 / (samples * slope));
-            const double found = pixel_of(scene, samples) * kPi / double{kFloorAlbedo};
-            EXPECT_NEAR(found / expected, 1, tolerance) << spread;
+            for (const double length : {3 * slope, 10.0}) {
+                scene::Scene scene = make_narrow(model, spread, length);
+                set_camera(scene, {0, -0.1f, 0.1f}, {0, 0, 0}, {0, 1, 0}, 1e-6, 1, 1);
+                const bool is_strip = model == TubeModel::strip;
+                const double expected = kRadius * (is_strip ? 6 / slope : kPi);
+                // Of the samples on the tube, few are in the bright band along it. They are stratified.
+                const int samples = is_strip ? 256 : 1 << 18;
+                const double tolerance = 0.003 + (is_strip ? 0 : 1 / (samples * slope));
+                const double found = pixel_of(scene, samples) * kPi / double{kFloorAlbedo};
+                EXPECT_NEAR(found / expected, 1, tolerance) << spread << ' ' << length;
+            }
         }
     }
 }

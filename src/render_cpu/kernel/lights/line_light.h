@@ -11,6 +11,7 @@
 #include <nusselt/geometry/cylinder_caps.h>
 #include <nusselt/geometry/strip.h>
 #include <nusselt/line_emission/textured_line.h>
+#include <nusselt/line_emission/visible_part.h>
 #include <nusselt/ltc/line_shading.h>
 #include <nusselt/sampling/cylinder_area.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
@@ -27,10 +28,23 @@ inline const render_cpu::LineRecord& line_record(const render_cpu::LightSet& lig
     return static_cast<const render_cpu::LineRecord*>(lights.records)[index];
 }
 
+/// The middle line of a light in shading space, without what its spread hides.
 inline LineSegment<Real> local_axis(const ReflectedLight& reflected,
                                     const render_cpu::LineRecord& record) noexcept {
     const LineSegment<float> world{to_vec(record.begin), to_vec(record.direction), record.length};
-    return to_shading_space(world, reflected.surface().position, reflected.surface().frame);
+    const Frame<Real>& frame = reflected.surface().frame;
+    const LineSegment<Real> whole = to_shading_space(world, reflected.surface().position, frame);
+    if (record.directions == nullptr || !(record.directions->inverse_slope > 0)) return whole;
+    const Real slope(1 / record.directions->inverse_slope);
+    switch (record.model) {
+    case scene::TubeModel::strip:
+        return visible_part_of_strip(
+            whole, frame.to_local(broadcast<Real>(to_vec(record.directions->normal))), slope);
+    case scene::TubeModel::linear:
+        return visible_part(whole, slope);
+    default:
+        return visible_part_of_tube(whole, Real(record.radius), slope);
+    }
 }
 
 using LineRadiance = LineProfile<float, scene::kMaxLineTexels>;
@@ -120,7 +134,7 @@ struct LinearLight {
             emission = strip_facing(local, normal) * emission;
         }
         return {{local, RelativeRadiance(record), &record},
-                reflected.lanes() & !(max(local.p0.z, end) <= Real(0)),
+                reflected.lanes() & !(max(local.p0.z, end) <= Real(0)) & !(local.length <= Real(0)),
                 emission,
                 static_cast<std::uint32_t>(lights.first + index)};
     }
