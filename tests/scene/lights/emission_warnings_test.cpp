@@ -89,6 +89,16 @@ TEST_F(DarkLights, ProfilesBehindAGrid) {
               1u);
 }
 
+TEST_F(DarkLights, ProfilesOfHugeLights) {
+    write_profile("weak.ies", "0.1 0.1 0.1");
+    const std::string huge =
+        "Shape \"quad\" \"point o\" [0 0 0] \"vector u\" [1e15 0 0] \"vector v\" [0 1e15 0]\n";
+    EXPECT_EQ(
+        reason(area("\"string ies\" \"weak.ies\""), huge),
+        "it emits no light because its profile 'weak.ies' is too weak for its area (below 1e-30 cd/m^2)");
+    EXPECT_EQ(world(area("\"string ies\" \"weak.ies\"") + "\n" + kQuad).lights.of<PolygonLight>().size(), 1u);
+}
+
 TEST_F(DarkLights, Images) {
     for (const std::string name : {"dark.pfm", "zero.pfm"}) {
         const std::string expected =

@@ -68,13 +68,14 @@ Darkness darkness(const Luminaire& luminaire) {
 Darkness darkness(const ProfiledEmission& emission) {
     if (emission.mean > 0) return std::nullopt;
     const EmissionProfile& profile = *emission.profile;
-    if (profile.luminaire == nullptr) return "it emits no light because nothing passes its grid";
+    if (profile.luminaire == nullptr)
+        return "it emits no light because nothing passes its spread or honeycomb";
     if (Darkness black = darkness(*profile.luminaire)) return black;
     const bool has_grid = spread_slope(profile) || honeycomb_slopes(profile);
-    return "it emits no light because its profile '" + profile.luminaire->name +
-           (has_grid && profile.lost < 1
-                ? "' emits nothing in the directions that its spread or honeycomb lets pass"
-                : "' emits nothing on the sides on which it shines");
+    return "it emits no light because its profile '" + profile.luminaire->name + "' " +
+           (!(profile.lost < 1) ? "emits nothing on the sides on which it shines"
+            : has_grid          ? "emits nothing in the directions that its spread or honeycomb lets pass"
+                                : "is too weak for its area (below " + to_text(kDarkest) + " cd/m^2)");
 }
 
 Darkness darkness(const Scene& scene, const Lights& parts) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Why lights emit nothing although their colour is not black: an image, a map, a profile or a grid is to blame, or a portal
+/// Why lights emit nothing although their colour is not black: an image, a map, a profile or a spread is to blame, or a portal
 /// (dark_portals.h). Scenes and light rigs say it in the same words.
 
 #include "scene/build/build_shape.h"
