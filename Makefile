@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit page wasm site single-header shaders hlsl-msl clean help
+.PHONY: build demo lab check test test-full archive gpu-kit page three wasm site single-header shaders hlsl-msl clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -40,6 +40,10 @@ site: page ## the documentation, the gallery, the live page and the report as pa
 page: ## the live page in one file: out/page/index.html (docs/page.md)
 	scripts/setup.sh page
 	web/build.py out/page/index.html
+
+three: ## area lights with shadows for three.js, and an example: out/three (docs/three.md)
+	scripts/setup.sh three
+	web/build_three.py out/three
 
 wasm: ## the library for JavaScript as an npm package: out/wasm (docs/wasm.md)
 	scripts/setup.sh wasm

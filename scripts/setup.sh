@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/debian-packages.txt that are missing, on Debian 12 and Debian 13.
-# Usage: scripts/setup.sh check|build|page|site|wasm|hlsl|test
-#   check  packages for the library and its tests
-#   build  also packages for the programs
-#   page   packages for the live page
-#   site   packages for the programs, the live page and the site of the documentation
-#   wasm   packages for the programs and for the library in WebAssembly
-#   hlsl   packages for the shaders in other languages
-#   test   also packages for all tests
+# Usage: scripts/setup.sh GROUP
+#   check   packages for the library and its tests
+#   build   also packages for the programs
+#   page    packages for the live page
+#   three   packages for the live page and the module for three.js
+#   site    packages for the programs, the live page and the site of the documentation
+#   wasm    packages for the programs and the library in WebAssembly
+#   hlsl    packages for the programs and the shaders in other languages
+#   python  packages for the programs and the Python module
+#   test    all packages
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -16,16 +18,11 @@ fail() {
     exit 1
 }
 
-case "${1:-}" in
-    check) wanted='check' ;;
-    build) wanted='check|build' ;;
-    page) wanted='page' ;;
-    site) wanted='check|build|page|site' ;;
-    wasm) wanted='check|build|page|wasm' ;;
-    hlsl) wanted='check|build|hlsl' ;;
-    test) wanted='check|build|page|site|wasm|hlsl|test' ;;
-    *) fail "usage: scripts/setup.sh check|build|page|site|wasm|hlsl|test" ;;
-esac
+declare -A packages_of=(
+    [check]='check' [build]='check|build' [page]='page' [three]='page|three' [site]='check|build|page|site'
+    [wasm]='check|build|page|wasm' [hlsl]='check|build|hlsl' [python]='check|build|python' [test]='[a-z]+')
+wanted=${packages_of[${1:-none}]:-}
+[ -n "$wanted" ] || { sed -n '3,12s/^# //p' setup.sh >&2; exit 2; }
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}") || system=unknown
 case "$system" in
@@ -40,7 +37,8 @@ while read -r group package in_debian_13 _; do
     if [ "$system" = "debian 13" ] && [ "$in_debian_13" != "=" ]; then package=$in_debian_13; fi
     [ "$package" != "-" ] || continue
     state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || state=absent
-    [ "$state" = installed ] || missing+=("$package")
+    # npm also comes with other archives' Node.js, which forbids Debian's package of it.
+    [ "$state" = installed ] || { [ "$package" = npm ] && command -v npm >/dev/null; } || missing+=("$package")
 done <debian-packages.txt
 [ ${#missing[@]} -gt 0 ] || exit 0
 

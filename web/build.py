@@ -15,12 +15,12 @@ SHADERS = ROOT / "shaders/nusselt"
 SCENES = ["web/scenes/floor.pbrt", "scenes/room.pbrt"]
 
 
-def licence():
+def licence(maker):
     """The version and the licence as comments, as at the beginning of flattened shaders."""
     version = re.search(r"project\(nusselt VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     lines = (ROOT / "LICENSE").read_text().strip().splitlines()
     text = "".join(f"// {line}".rstrip() + "\n" for line in lines)
-    return f"// Nusselt {version}, put together by its live page.\n//\n{text}"
+    return f"// Nusselt {version}, put together by {maker}.\n//\n{text}"
 
 
 def sources():
@@ -32,7 +32,7 @@ def sources():
     return texts
 
 
-def scenes():
+def scenes(paths):
     """Scenes and the files that they include, by paths."""
     texts = {}
 
@@ -44,7 +44,7 @@ def scenes():
         for included in re.findall(r'^\s*Include "([^"]+)"', texts[name], re.MULTILINE):
             add((path.parent / included).resolve())
 
-    for scene in SCENES:
+    for scene in paths:
         add(ROOT / scene)
     return texts
 
@@ -55,7 +55,7 @@ def script():
 
 
 def page():
-    data = {"licence": licence(), "sources": sources(), "scenes": scenes(),
+    data = {"licence": licence("its live page"), "sources": sources(), "scenes": scenes(SCENES),
             "lobes": base64.b64encode((ROOT / "data/ltc-frostbite-engine.bin").read_bytes()).decode()}
     parts = {
         "@STYLE@": (ROOT / "lab/report/page/page.css").read_text() + (ROOT / "web/page/page.css").read_text(),

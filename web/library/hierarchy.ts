@@ -61,6 +61,46 @@ function split(items: number[], boxes: readonly Box[], whole: Box): [number[], n
     return parts;
 }
 
+/// Nodes with more triangles try fewer places: sorting takes long.
+const mostSorted = 256;
+const binCount = 32;
+
+/// The same division, with the places between bins of equal width tried only.
+/// \returns null where the centres of all triangles are in one place
+function splitBins(items: number[], boxes: readonly Box[], whole: Box): [number[], number[]] | null {
+    let best = Infinity;
+    let parts: [number[], number[]] | null = null;
+    for (let axis = 0; axis < 3; ++axis) {
+        const center = (i: number) => boxes[i].lower[axis] + boxes[i].upper[axis];
+        const begin = 2 * whole.lower[axis];
+        const width = 2 * whole.upper[axis] - begin;
+        const binOf = (i: number) => width > 0 ? Math.min(Math.floor(binCount * ((center(i) - begin) / width)), binCount - 1) : 0;
+        const bins = Array.from({ length: binCount }, () => ({ count: 0, box: emptyBox() }));
+        for (const i of items) {
+            const bin = bins[binOf(i)];
+            ++bin.count;
+            extend(bin.box, boxes[i]);
+        }
+        const sideCosts = (order: typeof bins) => {
+            const sum = { count: 0, box: emptyBox() };
+            return order.map(({ count, box }) => {
+                sum.count += count;
+                extend(sum.box, box);
+                return sum.count === 0 || sum.count === items.length ? Infinity : sum.count * area(sum.box);
+            });
+        };
+        const low = sideCosts(bins);
+        const high = sideCosts([...bins].reverse()).reverse();
+        for (let place = 1; place < binCount; ++place) {
+            const cost = low[place - 1] + high[place];
+            if (cost >= best) continue;
+            best = cost;
+            parts = [items.filter(i => binOf(i) < place), items.filter(i => binOf(i) >= place)];
+        }
+    }
+    return parts;
+}
+
 /// \param corners nine numbers for each triangle.
 export function makeHierarchy(corners: ArrayLike<number>): Hierarchy {
     const boxes: Box[] = [];
@@ -80,7 +120,7 @@ export function makeHierarchy(corners: ArrayLike<number>): Hierarchy {
         for (const i of items) extend(whole, boxes[i]);
         const begin = nodes.length;
         nodes.push(...whole.lower, 0, ...whole.upper, -1);
-        const parts = split(items, boxes, whole);
+        const parts = (items.length > mostSorted ? splitBins(items, boxes, whole) : null) ?? split(items, boxes, whole);
         if (parts === null) {
             nodes[begin + 7] = leafSize * order.length + items.length;
             order.push(...items);

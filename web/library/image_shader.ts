@@ -1,6 +1,6 @@
 /// The fragment shader that shades what the camera sees by one technique.
 
-import { LightKind } from "./scene_textures";
+import { LightKind } from "./light_uniforms";
 import { Sources, Values, assembleShader, fillTemplate } from "./shaders";
 import { LightTechnique, LobeTechnique, Technique, functionsOf } from "./techniques";
 
@@ -23,8 +23,8 @@ function lobeValues(lobe: LobeTechnique): Values {
     };
 }
 
-/// The code for the lights of one kind, with #include lines.
-function reflectionCode(sources: Sources, kind: LightKind, technique: Technique): string {
+/// The code for the lights of one kind, with #include lines: a function reflect_KIND().
+export function reflectionCode(sources: Sources, kind: LightKind, technique: Technique): string {
     const template = (name: string) => sources.get(name) ?? "";
     if (technique.lights === null) return template(`analytic_${kind}.glsl`);
     const values = valuesOf(kind, technique.lights[kind]);

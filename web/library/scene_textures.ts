@@ -1,14 +1,10 @@
 /// A scene in textures and uniforms, in the layout of web/shaders/scene.glsl, shadows.glsl and lights.glsl.
 
 import { makeHierarchy } from "./hierarchy";
-import { Polygon, Scene, Tube, normalOf } from "./pbrt";
-import { Vector, add, cross, length, normalize, subtract, times } from "./vectors";
+import { LightKind, Uniforms, polygonUniforms, tubeUniforms } from "./light_uniforms";
+import { Polygon, Scene, Tube } from "./pbrt";
+import { Vector, add, cross, normalize, subtract, times } from "./vectors";
 import { Gl, makeArrayTexture } from "./webgl";
-
-/// Vertices of a polygonal light; NUSSELT_MAX_VERTICES of most programs.
-const lightVertices = 4;
-/// Lights of each kind, kMostLights of the shader.
-const mostLights = 4;
 
 // Values of Material::model in the shader.
 const lambert = 0;
@@ -18,9 +14,6 @@ const noSurface = 2;
 /// Tubes look like prisms with as many sides, as in the C++ renderer.
 const tubeSides = 32;
 
-/// The values of uniforms by name.
-export type Uniforms = Map<string, readonly number[]>;
-
 export interface SceneTextures {
     readonly triangles: WebGLTexture;
     readonly triangleCount: number;
@@ -28,8 +21,6 @@ export interface SceneTextures {
     readonly materials: WebGLTexture;
     readonly uniforms: Uniforms;
 }
-
-export type LightKind = "polygon" | "line" | "cylinder";
 
 export function lightKinds(scene: Scene): LightKind[] {
     const kinds: LightKind[] = [];
@@ -79,7 +70,7 @@ class Builder {
     readonly occluders: Triangle[] = [];
     readonly others: Triangle[] = [];
     readonly materials: number[];
-    readonly uniforms: Uniforms = new Map();
+    readonly uniforms: Uniforms;
 
     constructor(private readonly scene: Scene) {
         this.materials = scene.materials.flatMap(m =>
@@ -93,10 +84,10 @@ class Builder {
             this.materials.push(...materialTexels(noSurface, black, black, 1, tube.radiance));
             this.others.push(...prism(tube, this.materials.length / 12 - 1));
         }
-        this.addPolygons(lights);
         const number = (tube: Tube) => lights.length + scene.tubes.indexOf(tube);
-        this.addTubes("line", scene.tubes.filter(tube => !tube.isCylinder), number);
-        this.addTubes("cylinder", scene.tubes.filter(tube => tube.isCylinder), number);
+        const tubesOf = (isCylinder: boolean) => scene.tubes.filter(tube => tube.isCylinder === isCylinder);
+        this.uniforms = new Map([...polygonUniforms(lights), ...tubeUniforms("line", tubesOf(false), number),
+            ...tubeUniforms("cylinder", tubesOf(true), number)]);
     }
 
     /// The material of a surface that emits.
@@ -105,35 +96,6 @@ class Builder {
         this.materials.push(...materialTexels(m.isGlossy ? frostbite : lambert, m.diffuse, m.f0, m.roughness,
             polygon.radiance ?? black));
         return this.materials.length / 12 - 1;
-    }
-
-    private addPolygons(lights: readonly Polygon[]): void {
-        if (lights.length > mostLights) throw new Error(`${lights.length} polygonal lights are too many`);
-        const slots = Array.from({ length: lightVertices }, (_, j) => j);
-        // Unused slots repeat the last vertex; the last edge closes the polygon.
-        const vertices = lights.flatMap(({ vertices: v }) => slots.map(j => v[Math.min(j, v.length - 1)]));
-        const edges = lights.flatMap(({ vertices: v }) => slots.map(j =>
-            j === lightVertices - 1 ? subtract(v[0], v[v.length - 1]) : j < v.length - 1 ? subtract(v[j + 1], v[j]) : black));
-        this.setVectors("polygon_vertices", vertices);
-        this.setVectors("polygon_edges", edges);
-        this.setVectors("polygon_normals", lights.map(light => normalOf(light.vertices)));
-        this.setVectors("polygon_radiances", lights.map(light => light.radiance ?? black));
-        this.uniforms.set("polygon_numbers", [...lights.keys()]);
-        this.uniforms.set("polygon_count", [lights.length]);
-    }
-
-    private addTubes(kind: LightKind, tubes: readonly Tube[], number: (tube: Tube) => number): void {
-        if (tubes.length > mostLights) throw new Error(`${tubes.length} tubes are too many`);
-        this.setVectors(`${kind}_begins`, tubes.map(tube => tube.begin));
-        this.uniforms.set(`${kind}_directions`, tubes.flatMap(({ begin, end }) =>
-            [...normalize(subtract(end, begin)), length(subtract(end, begin))]));
-        this.uniforms.set(`${kind}_radiances`, tubes.flatMap(tube => [...tube.radiance, tube.radius]));
-        this.uniforms.set(`${kind}_numbers`, tubes.map(number));
-        this.uniforms.set(`${kind}_count`, [tubes.length]);
-    }
-
-    private setVectors(name: string, vectors: readonly Vector[]): void {
-        this.uniforms.set(name, vectors.flat());
     }
 }
 

@@ -37,9 +37,14 @@ function flatten(sources: Sources, path: string, text: string, seen: Set<string>
     });
 }
 
-/// A complete shader for WebGL 2.
+/// A part of a shader with all that it includes.
 /// \param text   of its main file.
 /// \param values of the templates in all of its files.
+export function assemblePart(sources: Sources, text: string, values: Values = {}): string {
+    return fillTemplate(flatten(sources, "", text, new Set()), values);
+}
+
+/// A complete shader for WebGL 2; parameters as above.
 export function assembleShader(sources: Sources, text: string, values: Values = {}): string {
-    return "#version 300 es\n" + fillTemplate(flatten(sources, "", text, new Set()), values);
+    return "#version 300 es\n" + assemblePart(sources, text, values);
 }

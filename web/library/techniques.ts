@@ -1,6 +1,6 @@
 /// The techniques that the page compares, by the names of shaders/nusselt.
 
-import { LightKind } from "./scene_textures";
+import { LightKind } from "./light_uniforms";
 
 /// A technique for one kind of light.
 export interface LightTechnique {

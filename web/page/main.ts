@@ -1,5 +1,6 @@
 /// Starts the page and draws its frames.
 
+import { halton } from "../library/halton";
 import { Scene, View, readScene } from "../library/pbrt";
 import { techniqueOf } from "../library/techniques";
 import { fitHeuristic, makeControls, makeNumbers } from "./controls";
@@ -282,16 +283,6 @@ class Page {
         this.automaticWidth = width;
         this.update(this.state);
     }
-}
-
-/// The radical inverse of a number.
-function halton(index: number, base: number): number {
-    let result = 0;
-    for (let digit = 1 / base; index > 0; digit /= base) {
-        result += digit * (index % base);
-        index = Math.floor(index / base);
-    }
-    return result;
 }
 
 function help(): HTMLElement {

@@ -1,21 +1,10 @@
 #ifndef PAGE_SCENE_GLSL
 #define PAGE_SCENE_GLSL
-/// Triangles and materials in textures.
+/// Materials in a texture, beside triangles.
 
-#include "nusselt/core/vec.glsl"
+#include "triangles.glsl"
 
-const int kRowBits = 10; ///< rows have 2^10 texels
-
-uniform highp sampler2D triangles;
 uniform highp sampler2D materials;
-
-vec4 texel(highp sampler2D data, int index) {
-    return texelFetch(data, ivec2(index & ((1 << kRowBits) - 1), index >> kRowBits), 0);
-}
-
-/// A vertex of a triangle [m]. In w: the material for corner 0, for corner 1 the number of the light that the
-/// triangle belongs to, or -1.
-vec4 triangle_corner(int number, int corner) { return texel(triangles, 3 * number + corner); }
 
 // Values of Material::model.
 const float kLambert = 0.0;

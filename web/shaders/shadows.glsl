@@ -8,7 +8,6 @@
 /// box; the upper corner and, for leaves, the first triangle times 2^kCountBits plus their number, for others -1.
 uniform highp sampler2D nodes;
 uniform int node_count;
-uniform bool has_shadows;
 
 const int kCountBits = 3;
 /// Occluders count up to this fraction of the distance to the light.
@@ -67,7 +66,7 @@ bool is_visible(Surface surface, vec3 p) {
     vec3 to_light = frame_to_world(surface.shading, p);
     if (!(dot(surface.normal, to_light) > 0.0)) return false;
     vec3 offset = surface.offset * surface.normal;
-    return !has_shadows || !is_occluded(surface.position + offset, to_light - offset);
+    return !traces_shadows() || !is_occluded(surface.position + offset, to_light - offset);
 }
 
 #endif

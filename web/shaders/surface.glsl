@@ -7,6 +7,7 @@
 
 uniform highp isampler2D visible_numbers;
 uniform float scene_radius; ///< of a sphere around the scene [m]
+uniform bool has_shadows;
 
 // The ray through a place on the film, which is measured in pixels from the upper left corner: eye + t (ray_corner +
 // x ray_right + y ray_down).
@@ -56,6 +57,9 @@ Surface surface_at(int number) {
     surface.cos_o = dot(n, wo);
     return surface;
 }
+
+/// Whether shadow rays are traced.
+bool traces_shadows() { return has_shadows; }
 
 /// The radiance that the surface emits towards the camera.
 vec3 emission_of(Surface surface) { return surface.is_front ? surface.material.emission : vec3(0.0); }
