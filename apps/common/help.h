@@ -14,6 +14,7 @@ inline constexpr const char* kLinesGroup = "Line samples";
 inline constexpr const char* kSceneGroup = "Scene and camera";
 inline constexpr const char* kDeviceGroup = "Device";
 inline constexpr const char* kPartsGroup = "Parts and checkpoints";
+inline constexpr const char* kJobGroup = "Job";
 
 /// The default of options without which nothing happens.
 inline constexpr const char* kNone = "none";

@@ -3,8 +3,10 @@
 #include "apps/nusselt-lab/evidence/blue_noise.h"
 #include "apps/nusselt-lab/evidence/fit_ltc.h"
 #include "apps/nusselt-lab/evidence/fuzz.h"
+#include "apps/nusselt-lab/evidence/gather.h"
 #include "apps/nusselt-lab/evidence/map.h"
 #include "apps/nusselt-lab/evidence/reproduce.h"
+#include "apps/nusselt-lab/evidence/submit.h"
 #include "apps/nusselt-lab/gpu/gpu.h"
 
 int main(int argc, char** argv) {
@@ -20,6 +22,7 @@ int main(int argc, char** argv) {
          "Exit codes: 0 success, 1 error or broken expectation, 2 wrong usage, 3 an expectation\n"
          "was not evaluated; 130 stopped by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by "
          "SIGUSR1.",
-         {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_fit_ltc, setup_blue_noise}},
+         {setup_reproduce, setup_bench, setup_gpu, setup_map, setup_fuzz, setup_submit, setup_gather,
+          setup_fit_ltc, setup_blue_noise}},
         argc, argv);
 }

@@ -34,6 +34,8 @@ auto with_memory_for(int width, int height, std::int64_t channels, const Decoder
 
 Image decode_exr(std::ifstream& stream);
 LayeredImage decode_exr_layers(std::ifstream& stream);
+/// Of packed tiles, nothing but these; see packed_tiles.h.
+LayeredImage decode_exr_packed_layers(std::ifstream& stream);
 LayeredImage decode_exr_layer(std::ifstream& stream, std::string_view layer);
 LayeredImage decode_exr_layer_list(std::ifstream& stream);
 Metadata decode_exr_metadata(std::ifstream& stream);

@@ -3,6 +3,7 @@
 #include "base/atomic_file.h"
 #include "base/memory_text.h"
 #include "image/codecs.h"
+#include "image/packed_tiles.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -160,6 +161,10 @@ Image read_image(const std::filesystem::path& path) {
 }
 
 LayeredImage read_layers(const std::filesystem::path& path) { return decode_file(path, decode_exr_layers); }
+
+LayeredImage read_packed_layers(const std::filesystem::path& path) {
+    return decode_file(path, decode_exr_packed_layers);
+}
 
 LayeredImage read_layer(const std::filesystem::path& path, std::string_view name) {
     return decode_file(path, [&](std::ifstream& stream) { return decode_exr_layer(stream, name); });

@@ -1,7 +1,9 @@
 #include "render/frame.h"
 
+#include "image/packed_tiles.h"
 #include "render/film.h"
 #include "render/memory.h"
+#include "render/part_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -234,12 +236,17 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     result.data = {frame.bounds.x_begin, frame.bounds.y_begin, frame.image.width, frame.image.height};
     result.display = {0, 0, film.width, film.height};
     result.metadata = std::move(metadata);
-    const bool is_whole = settings.part.count == 1 && finished_fraction(frame) == 1;
+    const bool is_finished = finished_fraction(frame) == 1;
     image::Layer samples;
-    if (!is_whole) samples = samples_layer(frame, settings);
+    if (!is_finished) samples = samples_layer(frame, settings);
     result.layers = std::move(frame.layers);
     result.layers.insert(result.layers.begin(), {"", kRgb, std::move(frame.image.pixels)});
-    if (!is_whole) result.layers.push_back(std::move(samples));
+    if (!is_finished) result.layers.push_back(std::move(samples));
+    if (settings.part.count == 1) return result;
+    image::PackedTiles tiles(result.data, kTileSize);
+    for (const Tile& tile : frame.tiles) tiles.add(tile.x_begin, tile.y_begin);
+    result = pack(std::move(result), tiles);
+    result.metadata[kContentHashKey] = content_hash(result);
     return result;
 }
 

@@ -1,5 +1,9 @@
 #include "render/merge.h"
 
+#include "base/words.h"
+#include "image/packed_tiles.h"
+#include "render/part_file.h"
+
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -14,8 +18,9 @@ namespace nusselt::render {
 namespace {
 
 /// Metadata that images of one rendering need not share.
-const std::set<std::string> kFreeKeys = {"seed", "samples",        "camera_rays",      "isa",
-                                         "part", "render_seconds", "finished_fraction"};
+const std::set<std::string> kFreeKeys = {
+    "seed",           "samples",           "camera_rays",    "isa",          "part",
+    "render_seconds", "finished_fraction", image::kTilesKey, kContentHashKey};
 
 /// Doubles represent whole numbers exactly up to this one.
 constexpr double kMaxSampleCount = 0x1p53;
@@ -36,6 +41,7 @@ Rule rule_of(const image::Layer& layer) {
     return Rule::mean;
 }
 
+/// The numbers of samples in the pixels of a file.
 std::vector<double> samples_of(const image::LayeredImage& image, const std::filesystem::path& path) {
     if (image.metadata.count(image::kConvertedKey) != 0)
         refuse(path, "it was converted by `nusselt convert`, which may have changed its pixels; merge the "
@@ -57,6 +63,38 @@ std::vector<double> samples_of(const image::LayeredImage& image, const std::file
         refuse(path, "its number of samples per pixel is missing; merge only EXR files of `nusselt render` "
                      "and `nusselt merge`");
     return std::vector<double>(pixels, count);
+}
+
+/// Where the pixels of a file belong.
+struct Place {
+    image::Window whole;
+    std::vector<image::PixelRun> runs;
+};
+
+Place place_of(const image::LayeredImage& image, const std::filesystem::path& path) {
+    try {
+        if (const auto tiles = image::packed_tiles_of(image)) return {tiles->whole(), tiles->runs()};
+    } catch (const std::runtime_error& error) {
+        refuse(path, error.what());
+    }
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
+    return {image.data, {{0, 0, pixels}}};
+}
+
+/// Calls a function with the number of each pixel in the file and in the whole image.
+template <class Function>
+void for_each_pixel(const Place& place, const Function& function) {
+    for (const image::PixelRun& run : place.runs)
+        for (std::size_t i = 0; i < run.count; ++i) function(run.packed + i, run.whole + i);
+}
+
+void check_content(const image::LayeredImage& image, const std::filesystem::path& path) {
+    const auto found = image.metadata.find(kContentHashKey);
+    if (found != image.metadata.end() && found->second != content_hash(image))
+        refuse(path, "its pixels are not those that were written: the file is damaged or incomplete, or "
+                     "another program "
+                     "has changed it; render this part again");
 }
 
 std::set<std::string> words_of(const image::Metadata& metadata, const std::string& key) {
@@ -114,8 +152,19 @@ using Pixels = std::vector<bool>;
 /// The pixels with samples, and their seeds.
 struct Origin {
     std::set<std::string> seeds;
-    Pixels has_samples;
+    Place place;
+    Pixels has_samples; ///< for each pixel of the file
     std::filesystem::path path;
+    bool is_finished;
+    bool is_one_part; ///< not merged
+
+    /// \param pixel of the whole image
+    bool has(std::size_t pixel) const {
+        return std::any_of(place.runs.begin(), place.runs.end(), [&](const image::PixelRun& run) {
+            return pixel >= run.whole && pixel - run.whole < run.count &&
+                   has_samples[run.packed + (pixel - run.whole)];
+        });
+    }
 };
 
 /// Mean of two values with weights >= 0, exactly one of them if the other has no weight.
@@ -134,21 +183,32 @@ double variance_of_mean(double a, double weight_a, double b, double weight_b) {
     return share_a * share_a * a + share_b * share_b * b;
 }
 
-void add_layer(LayerSum& sum, const std::vector<double>& weights, const image::Layer& layer,
-               const std::vector<double>& new_weights) {
-    const auto combine = sum.rule == Rule::variance_of_mean ? variance_of_mean : weighted_mean;
-    const std::size_t channels = layer.channels.size();
-    for (std::size_t i = 0; i < layer.data.size(); ++i) {
-        const std::size_t pixel = i / channels;
-        sum.values[i] = combine(sum.values[i], weights[pixel], layer.data[i], new_weights[pixel]);
-    }
+/// At most so many names: there may be thousands.
+std::string short_listing(std::vector<std::string> names) {
+    constexpr std::size_t kMost = 8;
+    const std::size_t left = names.size() - std::min(names.size(), kMost);
+    names.resize(names.size() - left);
+    if (left > 0) names.push_back(std::to_string(left) + " more");
+    return base::listing(names, "and");
 }
 
-/// Weights of a mean over camera rays that hit something.
-std::vector<double> times_coverage(const std::vector<double>& samples, const std::vector<double>& coverage) {
-    std::vector<double> result(samples.size());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = samples[i] * std::max(coverage[i], 0.0);
-    return result;
+/// The parts that are not there, such as "2/3", if all that are there divide the image in the same way.
+std::vector<std::string> missing_parts(const std::set<std::string>& parts) {
+    std::set<int> numbers;
+    int count = 0;
+    for (const std::string& part : parts) {
+        int number = 0, count_of_part = 0;
+        char slash = 0;
+        std::istringstream(part) >> number >> slash >> count_of_part;
+        if (count != 0 && count_of_part != count) return {};
+        count = count_of_part;
+        numbers.insert(number);
+    }
+    std::vector<std::string> missing;
+    for (int number = 1; number <= count; ++number)
+        if (numbers.count(number) == 0)
+            missing.push_back(std::to_string(number) + "/" + std::to_string(count));
+    return missing;
 }
 
 } // namespace
@@ -162,30 +222,36 @@ struct Merger::State {
     std::set<std::string> isas, parts;
     double render_seconds = 0;
 
-    void begin(const image::LayeredImage& first);
-    void check(const image::LayeredImage& other, const std::filesystem::path& path) const;
+    void begin(const image::LayeredImage& first, const image::Window& whole);
+    void check(const image::LayeredImage& other, const image::Window& whole,
+               const std::filesystem::path& path) const;
     void add_origin(Origin origin);
     [[noreturn]] void refuse_repetition(const Origin& origin, const std::string& seed,
                                         std::size_t pixel) const;
-    std::vector<double> coverage() const;
+    /// Adds the layers that follow a rule.
+    void add_layers(const image::LayeredImage& other, const Place& place,
+                    const std::vector<double>& new_samples, bool (*follows)(Rule));
 };
 
-void Merger::State::begin(const image::LayeredImage& first) {
-    image.data = first.data;
+void Merger::State::begin(const image::LayeredImage& first, const image::Window& whole) {
+    image.data = whole;
     image.display = first.display;
     image.metadata = first.metadata;
+    image.metadata.erase(image::kTilesKey);
+    image.metadata.erase(kContentHashKey);
     image.foreign_metadata = first.foreign_metadata;
+    samples.resize(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
     for (const image::Layer& layer : first.layers) {
         if (layer.name == kSamplesLayer) continue;
         image.layers.push_back({layer.name, layer.channels, {}});
-        layers.push_back({rule_of(layer), std::vector<double>(layer.data.size())});
+        layers.push_back({rule_of(layer), std::vector<double>(layer.channels.size() * samples.size())});
     }
-    samples.resize(static_cast<std::size_t>(first.data.width) * static_cast<std::size_t>(first.data.height));
 }
 
-void Merger::State::check(const image::LayeredImage& other, const std::filesystem::path& path) const {
-    if (!(other.data == image.data) || !(other.display == image.display))
-        refuse(path, "it shows " + size_text(other.data) + " of the film, but the first image shows " +
+void Merger::State::check(const image::LayeredImage& other, const image::Window& whole,
+                          const std::filesystem::path& path) const {
+    if (!(whole == image.data) || !(other.display == image.display))
+        refuse(path, "it shows " + size_text(whole) + " of the film, but the first image shows " +
                          size_text(image.data));
     if (layers_text(other) != layers_text(image))
         refuse(path, "its channels are " + layers_text(other) + ", but those of the first image are " +
@@ -194,15 +260,14 @@ void Merger::State::check(const image::LayeredImage& other, const std::filesyste
 }
 
 void Merger::State::add_origin(Origin origin) {
-    const std::size_t pixel_count = origin.has_samples.size();
     for (const std::string& seed : origin.seeds) {
         Pixels& pixels = sampled[seed];
-        pixels.resize(pixel_count);
-        for (std::size_t i = 0; i < pixel_count; ++i) {
-            if (!origin.has_samples[i]) continue;
-            if (pixels[i]) refuse_repetition(origin, seed, i);
-            pixels[i] = true;
-        }
+        pixels.resize(samples.size());
+        for_each_pixel(origin.place, [&](std::size_t i, std::size_t pixel) {
+            if (!origin.has_samples[i]) return;
+            if (pixels[pixel]) refuse_repetition(origin, seed, pixel);
+            pixels[pixel] = true;
+        });
     }
     origins.push_back(std::move(origin));
 }
@@ -210,17 +275,37 @@ void Merger::State::add_origin(Origin origin) {
 void Merger::State::refuse_repetition(const Origin& origin, const std::string& seed,
                                       std::size_t pixel) const {
     const auto other = std::find_if(origins.begin(), origins.end(), [&](const Origin& earlier) {
-        return earlier.has_samples[pixel] && earlier.seeds.count(seed) != 0;
+        return earlier.seeds.count(seed) != 0 && earlier.has(pixel);
     });
     refuse(origin.path, "it has samples of the same seed at the same pixels as '" + other->path.string() +
                             "', which would count twice; render with another --seed or --part");
 }
 
-/// The coverage of the images added so far; empty without that layer.
-std::vector<double> Merger::State::coverage() const {
+void Merger::State::add_layers(const image::LayeredImage& other, const Place& place,
+                               const std::vector<double>& new_samples, bool (*follows)(Rule)) {
+    const image::Layer* const new_coverage = image::find_layer(other, kCoverageLayer);
+    std::size_t index = 0, coverage = layers.size();
     for (std::size_t i = 0; i < layers.size(); ++i)
-        if (image.layers[i].name == kCoverageLayer) return layers[i].values;
-    return {};
+        if (image.layers[i].name == kCoverageLayer) coverage = i;
+    for (const image::Layer& layer : other.layers) {
+        if (layer.name == kSamplesLayer) continue;
+        LayerSum& sum = layers[index++];
+        if (!follows(sum.rule)) continue;
+        const auto combine = sum.rule == Rule::variance_of_mean ? variance_of_mean : weighted_mean;
+        const bool counts_hits = sum.rule == Rule::mean_over_hits && new_coverage != nullptr;
+        const std::size_t channels = layer.channels.size();
+        for_each_pixel(place, [&](std::size_t i, std::size_t pixel) {
+            double weight = samples[pixel], new_weight = new_samples[i];
+            if (counts_hits) {
+                weight *= std::max(layers[coverage].values[pixel], 0.0);
+                new_weight *= std::max<double>(new_coverage->data[i], 0);
+            }
+            for (std::size_t c = 0; c < channels; ++c) {
+                double& value = sum.values[channels * pixel + c];
+                value = combine(value, weight, layer.data[channels * i + c], new_weight);
+            }
+        });
+    }
 }
 
 Merger::Merger() = default;
@@ -228,29 +313,28 @@ Merger::~Merger() = default;
 
 void Merger::add(const image::LayeredImage& image, const std::filesystem::path& path) {
     const std::vector<double> new_samples = samples_of(image, path);
+    const Place place = place_of(image, path);
+    check_content(image, path);
     if (!state_) {
         state_ = std::make_unique<State>();
-        state_->begin(image);
+        state_->begin(image, place.whole);
     }
     State& state = *state_;
-    state.check(image, path);
-    Origin origin{words_of(image.metadata, "seed"), {}, path};
+    state.check(image, place.whole, path);
+    const auto finished = image.metadata.find("finished_fraction");
+    Origin origin{words_of(image.metadata, "seed"),
+                  place,
+                  {},
+                  path,
+                  finished == image.metadata.end() || finished->second == "1",
+                  words_of(image.metadata, "part").size() <= 1};
     for (const double n : new_samples) origin.has_samples.push_back(n > 0);
     state.add_origin(std::move(origin));
 
-    const std::vector<double> coverage = state.coverage();
-    const image::Layer* const new_coverage = image::find_layer(image, kCoverageLayer);
-    std::size_t index = 0;
-    for (const image::Layer& layer : image.layers) {
-        if (layer.name == kSamplesLayer) continue;
-        LayerSum& sum = state.layers[index++];
-        if (sum.rule == Rule::mean_over_hits && new_coverage != nullptr)
-            add_layer(sum, times_coverage(state.samples, coverage), layer,
-                      times_coverage(new_samples, {new_coverage->data.begin(), new_coverage->data.end()}));
-        else
-            add_layer(sum, state.samples, layer, new_samples);
-    }
-    for (std::size_t i = 0; i < new_samples.size(); ++i) state.samples[i] += new_samples[i];
+    // Weights of means over hits depend on the coverage before it is updated.
+    state.add_layers(image, place, new_samples, [](Rule rule) { return rule == Rule::mean_over_hits; });
+    state.add_layers(image, place, new_samples, [](Rule rule) { return rule != Rule::mean_over_hits; });
+    for_each_pixel(place, [&](std::size_t i, std::size_t pixel) { state.samples[pixel] += new_samples[i]; });
     state.isas.merge(words_of(image.metadata, "isa"));
     state.parts.merge(words_of(image.metadata, "part"));
     for (const std::string& text : words_of(image.metadata, "render_seconds")) {
@@ -258,6 +342,26 @@ void Merger::add(const image::LayeredImage& image, const std::filesystem::path& 
         std::from_chars(text.data(), text.data() + text.size(), seconds);
         state.render_seconds += seconds;
     }
+}
+
+std::string Merger::what_is_missing() const {
+    if (!state_) throw std::logic_error("no image to merge");
+    const auto& samples = state_->samples;
+    if (std::none_of(samples.begin(), samples.end(), [](double n) { return n == 0; })) return "";
+    std::vector<std::string> reasons;
+    const std::vector<std::string> missing = missing_parts(state_->parts);
+    if (missing.size() == 1) reasons.push_back("part " + missing[0] + " is missing");
+    if (missing.size() > 1) reasons.push_back("parts " + short_listing(missing) + " are missing");
+    std::vector<std::string> unfinished;
+    for (const Origin& origin : state_->origins)
+        // Merged images are unfinished because of the parts that they lack.
+        if (!origin.is_finished && (missing.empty() || origin.is_one_part))
+            unfinished.push_back("'" + origin.path.string() + "'");
+    if (!unfinished.empty())
+        reasons.push_back(short_listing(unfinished) + (unfinished.size() == 1 ? " is" : " are") +
+                          " unfinished");
+    return reasons.empty() ? "the parts do not divide the image in the same way"
+                           : base::listing(reasons, "and");
 }
 
 image::LayeredImage Merger::result() const {

@@ -126,8 +126,8 @@ protected:
 };
 
 TEST_F(Help, IsCompleteAndInOneFormForEveryCommand) {
-    EXPECT_EQ(check([this](const std::string& arguments) { return run(arguments); }, ""), 10);
-    EXPECT_EQ(check([this](const std::string& arguments) { return run_lab(arguments); }, ""), 28);
+    EXPECT_EQ(check([this](const std::string& arguments) { return run(arguments); }, ""), 11);
+    EXPECT_EQ(check([this](const std::string& arguments) { return run_lab(arguments); }, ""), 33);
 }
 
 TEST_F(Help, OfAllCommandsHasTheHelpOfEach) {

@@ -5,10 +5,9 @@
 #include "image/io.h"
 #include "image/layers.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -47,7 +46,9 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
         expect_success(render("--layers all --part " + std::string(number) + "/3 -o " + name));
         inputs += " " + name;
     }
-    EXPECT_NE(image::find_layer(layers("part1.exr"), "samples"), nullptr);
+    // Parts hold their tiles only: 7 of 20 for the first.
+    EXPECT_LT(std::filesystem::file_size(path("part1.exr")),
+              0.4 * double(std::filesystem::file_size(path("whole.exr"))));
     expect_success("merge -o merged.exr" + inputs);
     const image::LayeredImage whole = layers("whole.exr");
     const image::LayeredImage merged = layers("merged.exr");
@@ -59,14 +60,8 @@ TEST_F(RenderParts, MergedAreTheWholeImageBitByBit) {
     // Two thirds of the image are an image as well.
     const Outcome some = run("merge -o some.exr part1.exr part2.exr");
     EXPECT_EQ(some.exit_code, 1);
-    std::ptrdiff_t pixels = 0;
-    for (const char* name : {"part1.exr", "part2.exr"}) {
-        const image::LayeredImage part = layers(name);
-        const std::vector<float>& samples = image::find_layer(part, "samples")->data;
-        pixels += std::count(samples.begin(), samples.end(), 2.0f);
-    }
-    const double per_cent = std::floor(1000.0 * static_cast<double>(pixels) / (80 * 60)) / 10;
-    expect_message(some.err, fmt::format("only {:.1f} % of the pixels have samples; add", per_cent));
+    // Of 20 tiles, the third part has 6; the last row of tiles has 12 rows of pixels.
+    expect_message(some.err, " % of the pixels have samples: part 3/3 is missing; add what is missing");
     expect_message(some.err, "--partial");
     EXPECT_FALSE(std::filesystem::exists(path("some.exr")));
     expect_success("merge --partial -o some.exr part1.exr part2.exr");
@@ -136,6 +131,77 @@ TEST_F(RenderParts, MergeTakesTheOutputFirstWithAWarning) {
     EXPECT_EQ(forgotten.exit_code, 2);
     expect_message(forgotten.err, "'p1.exr' exists; use `merge -o OUT IN...` to replace it");
     EXPECT_EQ(read("p1.exr"), before);
+}
+
+TEST_F(RenderParts, WhatIsWrongWithPartsIsNamed) {
+    for (const char* number : {"1", "2", "3", "4", "5"})
+        expect_success(render(std::string("--part ") + number + "/5 -o p" + number + ".exr"));
+    const auto refusal = [&](const std::string& inputs, const std::string& text) {
+        std::filesystem::remove(path("merged.exr"));
+        const Outcome wrong = run("merge -o merged.exr " + inputs);
+        EXPECT_EQ(wrong.exit_code, 1) << inputs;
+        expect_message(wrong.err, text);
+        EXPECT_FALSE(std::filesystem::exists(path("merged.exr"))) << inputs;
+    };
+    refusal("p1.exr p3.exr p5.exr", "parts 2/5 and 4/5 are missing");
+    refusal("p1.exr p2.exr p3.exr p4.exr p3.exr p5.exr",
+            "'p3.exr': it has samples of the same seed at the same pixels as 'p3.exr'");
+    // Merged images remember their parts, and may be merged in any order.
+    expect_success("merge --partial -o some.exr p5.exr p2.exr");
+    refusal("some.exr p1.exr p4.exr", "part 3/5 is missing");
+    refusal("p1.exr p2.exr some.exr",
+            "'some.exr': it has samples of the same seed at the same pixels as 'p2.exr'");
+    expect_success("merge -o merged.exr p4.exr some.exr p1.exr p3.exr");
+    expect_success(render("-o whole.exr"));
+    expect_same_layers(layers("merged.exr"), layers("whole.exr"));
+    // Parts of another division overlap, here or there.
+    expect_success(render("--part 2/3 -o q2.exr"));
+    refusal("p1.exr p2.exr p3.exr p4.exr q2.exr", "'q2.exr': it has samples of the same seed");
+    // A part of the file is missing, or is not what was written.
+    const std::string part = read("p2.exr");
+    const auto write = [&](const std::string& bytes) {
+        std::ofstream(path("p2.exr"), std::ios::binary) << bytes;
+    };
+    const std::string rest = "p1.exr p2.exr p3.exr p4.exr p5.exr";
+    for (const std::size_t size : {part.size() - 1, part.size() / 2, std::size_t(0)}) {
+        write(part.substr(0, size));
+        refusal(rest, "p2.exr");
+    }
+    std::string damaged = part;
+    damaged[part.size() - 100] ^= 1;
+    write(damaged);
+    refusal(rest, "'p2.exr': its pixels are not those that were written");
+    std::fill(damaged.end() - 1000, damaged.end(), '\0');
+    write(damaged);
+    refusal(rest, "p2.exr");
+    write(part);
+    expect_success("merge -o merged.exr " + rest);
+}
+
+TEST_F(RenderParts, OtherCommandsSeePartsInTheirPlace) {
+    expect_success(render("-o whole.exr"));
+    expect_success(render("--part 1/2 -o part.exr"));
+    const image::Image part = image::read_image(path("part.exr"));
+    const image::Image whole = image::read_image(path("whole.exr"));
+    ASSERT_EQ(part.pixels.size(), whole.pixels.size());
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < part.pixels.size(); ++i) {
+        EXPECT_TRUE(part.pixels[i] == whole.pixels[i] || part.pixels[i] == 0) << i;
+        same += part.pixels[i] == whole.pixels[i] ? 1 : 0;
+    }
+    EXPECT_GE(same, part.pixels.size() / 3);
+    expect_success("convert part.exr part.png");
+    EXPECT_EQ(image::read_image(path("part.png")).width, 80);
+}
+
+/// More parts than the image has tiles.
+TEST_F(RenderParts, MayBeEmpty) {
+    const std::string command = "render '" + kScenes + "/room.pbrt' --resolution 20x16 --spp 2 -q ";
+    expect_success(command + "-o whole.exr");
+    for (const char* number : {"1", "2", "3"})
+        expect_success(command + "--part " + number + "/3 -o p" + number + ".exr");
+    expect_success("merge -o merged.exr p3.exr p1.exr p2.exr");
+    expect_same_layers(layers("merged.exr"), layers("whole.exr"));
 }
 
 TEST_F(RenderParts, ConvertedImagesAreNotMerged) {

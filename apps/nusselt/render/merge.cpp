@@ -7,6 +7,7 @@
 
 #include "image/io.h"
 #include "image/layers.h"
+#include "image/packed_tiles.h"
 #include "render/merge.h"
 
 #include <CLI/CLI.hpp>
@@ -65,14 +66,14 @@ int run_merge(const MergeOptions& options) {
     image::check_writable_image(*options.output);
     base::check_exist(options.inputs);
     render::Merger merger;
-    for (const std::filesystem::path& path : options.inputs) merger.add(image::read_layers(path), path);
+    for (const std::filesystem::path& path : options.inputs)
+        merger.add(image::read_packed_layers(path), path);
     const image::LayeredImage result = merger.result();
     const double finished = std::stod(result.metadata.at("finished_fraction"));
     if (finished < 1 && !options.allows_partial)
-        throw std::runtime_error(fmt::format(
-            "only {:.1f} % of the pixels have samples; add the missing parts, or use --partial to "
-            "write what is there",
-            std::floor(1000 * finished) / 10));
+        throw std::runtime_error(fmt::format("only {:.1f} % of the pixels have samples: {}; add what is "
+                                             "missing, or use --partial to write what is there",
+                                             std::floor(1000 * finished) / 10, merger.what_is_missing()));
     image::write_layers(*options.output, result);
     return 0;
 }

@@ -172,37 +172,41 @@ void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
 
 } // namespace
 
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_scene_argument(command, options.scene);
+    add_output_options(command, options);
+    command.add_option("--spp", options.samples, "Samples per pixel, light and technique")
+        ->transform(to_whole_number(1, render::kMaxSamples))
+        ->default_str("what the Sampler of the scene asks for, or 1")
+        ->group(kSamplingGroup);
+    add_sampling_options(command, options);
+    command.add_option("--camera-rays", options.camera_rays, "Camera rays per pixel, a divisor of --spp")
+        ->transform(to_whole_number(1, render::kMaxSamples))
+        ->default_str("the same as --spp, or 1 with --pixel-center")
+        ->group(kSamplingGroup);
+    command
+        .add_flag_callback(
+            "--pixel-center",
+            [&options] { options.pixel_position = render::name_of(render::PixelPosition::center); },
+            "Send all camera rays through pixel centres, to measure noise, in place of random positions "
+            "within the pixel")
+        ->group(kSamplingGroup);
+    add_line_options(command, options.lines);
+    add_rigs_option(command, options.rigs);
+    add_camera_option(command, options.camera);
+    add_resolution_option(command, options.resolution);
+    add_backend_options(command, options);
+    add_machine_options(command, options.threads, options.isa);
+    add_part_option(command, options.part);
+    add_checkpoint_options(command, options);
+}
+
 void setup_render(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand(
         "render", "Render the direct light of a scene. Ctrl-C stops early and writes what is there, with "
                   "the rest black; the exit code is then 130. A second Ctrl-C ends the program at once.");
-    add_scene_argument(*command, options->scene);
-    add_output_options(*command, *options);
-    command->add_option("--spp", options->samples, "Samples per pixel, light and technique")
-        ->transform(to_whole_number(1, render::kMaxSamples))
-        ->default_str("what the Sampler of the scene asks for, or 1")
-        ->group(kSamplingGroup);
-    add_sampling_options(*command, *options);
-    command->add_option("--camera-rays", options->camera_rays, "Camera rays per pixel, a divisor of --spp")
-        ->transform(to_whole_number(1, render::kMaxSamples))
-        ->default_str("the same as --spp, or 1 with --pixel-center")
-        ->group(kSamplingGroup);
-    command
-        ->add_flag_callback(
-            "--pixel-center",
-            [options] { options->pixel_position = render::name_of(render::PixelPosition::center); },
-            "Send all camera rays through pixel centres, to measure noise, in place of random positions "
-            "within the pixel")
-        ->group(kSamplingGroup);
-    add_line_options(*command, options->lines);
-    add_rigs_option(*command, options->rigs);
-    add_camera_option(*command, options->camera);
-    add_resolution_option(*command, options->resolution);
-    add_backend_options(*command, *options);
-    add_machine_options(*command, options->threads, options->isa);
-    add_part_option(*command, options->part);
-    add_checkpoint_options(*command, *options);
+    add_render_options(*command, *options);
     command->callback([options, &exit_code] {
         check_combination(*options);
         exit_code = run_render(*options);

@@ -52,6 +52,9 @@ struct RenderOptions {
 /// command line was parsed.
 void setup_render(CLI::App& app, int& exit_code);
 
+/// Adds the argument SCENE and all options.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
 /// Renders and writes the images.
 /// \returns 0, or interrupted_exit_code()
 int run_render(const RenderOptions& options);

@@ -1,9 +1,11 @@
 #include "image/codecs.h"
 #include "image/formats/exr_part.h"
+#include "image/packed_tiles.h"
 
 #include <OpenEXR/ImfChannelList.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace nusselt::image {
 
@@ -22,6 +24,16 @@ bool is_rgb(const ExrPart& part) {
     return part.has_full_resolution("R") && part.has_full_resolution("G") && part.has_full_resolution("B");
 }
 
+/// Parts of an image hold tiles only; see packed_tiles.h.
+Image whole_image(const ExrPart& part, Image image) {
+    Metadata metadata = text_attributes(part.header()).ours;
+    if (metadata.count(kTilesKey) == 0) return image;
+    const Window window = {part.header().dataWindow().min.x, part.header().dataWindow().min.y, image.width,
+                           image.height};
+    LayeredImage whole = unpack({window, window, {color_layer(std::move(image))}, std::move(metadata), {}});
+    return layer_image(whole.data, std::move(whole.layers[0]));
+}
+
 } // namespace
 
 Image decode_exr(std::ifstream& stream) {
@@ -35,7 +47,7 @@ Image decode_exr(std::ifstream& stream) {
     Image image{part.width(), part.height(), {}};
     if (rgb) {
         part.read({{kRgb, &image.pixels}});
-        return image;
+        return whole_image(part, std::move(image));
     }
     std::vector<float> grey;
     part.read({{{"Y"}, &grey}});

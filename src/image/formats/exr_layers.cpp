@@ -1,6 +1,7 @@
 #include "image/codecs.h"
 #include "image/formats/exr_part.h"
 #include "image/layers.h"
+#include "image/packed_tiles.h"
 
 #include <OpenEXR/ImfChannelList.h>
 
@@ -81,21 +82,23 @@ void read_data(ExrPart& part, LayeredImage& image) {
 
 } // namespace
 
-LayeredImage decode_exr_layer_list(std::ifstream& stream) { return layer_list(ExrPart(stream)); }
+LayeredImage decode_exr_layer_list(std::ifstream& stream) { return unpack(layer_list(ExrPart(stream))); }
 
-LayeredImage decode_exr_layers(std::ifstream& stream) {
+LayeredImage decode_exr_packed_layers(std::ifstream& stream) {
     ExrPart part(stream);
     LayeredImage image = layer_list(part);
     read_data(part, image);
     return image;
 }
 
+LayeredImage decode_exr_layers(std::ifstream& stream) { return unpack(decode_exr_packed_layers(stream)); }
+
 LayeredImage decode_exr_layer(std::ifstream& stream, std::string_view layer) {
     ExrPart part(stream);
     LayeredImage image = layer_list(part);
     std::erase_if(image.layers, [&](const Layer& other) { return other.name != layer; });
     if (!image.layers.empty()) read_data(part, image);
-    return image;
+    return unpack(std::move(image));
 }
 
 const Layer* find_layer(const LayeredImage& image, std::string_view name) {

@@ -1,0 +1,37 @@
+#include "engine.h"
+
+namespace nusselt::app {
+
+namespace {
+
+/// A step that runs a script of the folder.
+nlohmann::ordered_json step(const Job& job, const std::string& name, const std::string& script,
+                            const Words& arguments) {
+    return {{"name", name},
+            {"script",
+             {{"actions", {{"onRun", {{"command", (job.folder / script).string()}, {"args", arguments}}}}}}}};
+}
+
+/// A job template of the Open Job Description 2023-09, which AWS Deadline Cloud and others read.
+std::vector<JobFile> files(const Job& job) {
+    nlohmann::ordered_json tasks = step(job, "Tasks", "task.sh", {"{{Task.Param.Task}}"});
+    tasks["parameterSpace"] = {
+        {"taskParameterDefinitions",
+         {{{"name", "Task"}, {"type", "INT"}, {"range", "1-" + std::to_string(job.tasks.size())}}}}};
+    tasks["hostRequirements"] = {{"amounts", {{{"name", "amount.worker.vcpu"}, {"min", job.threads}}}}};
+    nlohmann::ordered_json gather = step(job, "Gather", "gather.sh", {});
+    // Here, a task that fails for good stops the job, and the engine shows that; there is no step after failed ones.
+    gather["dependencies"] = {{{"dependsOn", "Tasks"}}};
+    const nlohmann::ordered_json job_template = {
+        {"specificationVersion", "jobtemplate-2023-09"}, {"name", job.name}, {"steps", {tasks, gather}}};
+    return {{"template.json", job_template.dump(2) + "\n"}};
+}
+
+} // namespace
+
+extern const Engine kOpenJobDescription;
+const Engine kOpenJobDescription = {"print",
+                                    "which prints a job template for engines that read Open Job Description",
+                                    files, "template.json"};
+
+} // namespace nusselt::app

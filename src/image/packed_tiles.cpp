@@ -1,0 +1,167 @@
+#include "image/packed_tiles.h"
+
+#include "image/codecs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace nusselt::image {
+
+namespace {
+
+constexpr int kMaxTileSize = 4096;
+constexpr int kMaxPosition = 1 << 30;
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+/// 4 GiB of floats, as in files of whole images.
+constexpr std::int64_t kMaxValueCount = std::int64_t(1) << 30;
+
+[[noreturn]] void fail_as_damaged() {
+    throw std::runtime_error(
+        "its list of tiles is damaged, or another program has changed its size; use the file as "
+        "`nusselt render` wrote it");
+}
+
+int tiles_along(int begin, int count, int size) { return (begin + count - 1) / size - begin / size + 1; }
+
+} // namespace
+
+PackedTiles::PackedTiles(const Window& whole, int size)
+    : whole_(whole),
+      size_(size),
+      columns_(tiles_along(whole.x, whole.width, size)),
+      rows_(tiles_along(whole.y, whole.height, size)),
+      is_there_(std::size_t(columns_) * std::size_t(rows_)) {}
+
+PackedTiles::PackedTiles(const std::string& text) {
+    std::istringstream stream(text);
+    std::string digits;
+    stream >> whole_.x >> whole_.y >> whole_.width >> whole_.height >> size_ >> digits;
+    if (!stream || whole_.x < 0 || whole_.x > kMaxPosition || whole_.y < 0 || whole_.y > kMaxPosition ||
+        size_ < 1 || size_ > kMaxTileSize)
+        fail_as_damaged();
+    check_size(whole_.width, whole_.height);
+    *this = PackedTiles(whole_, size_);
+    if (digits.size() != (is_there_.size() + 3) / 4) fail_as_damaged();
+    for (std::size_t i = 0; i < 4 * digits.size(); ++i) {
+        const std::size_t digit = kDigits.find(digits[i / 4]);
+        if (digit == std::string_view::npos) fail_as_damaged();
+        const bool is_set = (digit >> (3 - i % 4) & 1) != 0;
+        if (i < is_there_.size())
+            is_there_[i] = is_set;
+        else if (is_set)
+            fail_as_damaged();
+    }
+}
+
+void PackedTiles::add(int x, int y) {
+    const auto column = std::size_t(x / size_ - whole_.x / size_);
+    const auto row = std::size_t(y / size_ - whole_.y / size_);
+    is_there_[row * std::size_t(columns_) + column] = true;
+}
+
+std::string PackedTiles::text() const {
+    std::ostringstream stream;
+    stream << whole_.x << ' ' << whole_.y << ' ' << whole_.width << ' ' << whole_.height << ' ' << size_
+           << ' ';
+    for (std::size_t i = 0; i < is_there_.size(); i += 4) {
+        unsigned digit = 0;
+        for (std::size_t k = i; k < i + 4; ++k) digit = 2 * digit + (k < is_there_.size() && is_there_[k]);
+        stream << kDigits[digit];
+    }
+    return stream.str();
+}
+
+std::size_t PackedTiles::chosen_count() const {
+    return std::size_t(std::count(is_there_.begin(), is_there_.end(), true));
+}
+
+Window PackedTiles::window() const {
+    // About square, so that the mosaic is easy to look at, and with less than one row of empty cells.
+    const std::size_t count = std::max<std::size_t>(chosen_count(), 1); // files are never empty
+    const auto rows = std::size_t(std::sqrt(double(count)));
+    const std::size_t columns = (count + rows - 1) / rows;
+    return {0, 0, int(columns) * size_, int((count + columns - 1) / columns) * size_};
+}
+
+std::vector<PixelRun> PackedTiles::runs() const {
+    const Window cells = window();
+    const int cells_per_row = cells.width / size_;
+    std::vector<PixelRun> runs;
+    int cell = 0;
+    for (std::size_t i = 0; i < is_there_.size(); ++i) {
+        if (!is_there_[i]) continue;
+        // In pixels of the whole image; tiles at its edges may have fewer rows and columns.
+        const int left = (whole_.x / size_ + int(i) % columns_) * size_ - whole_.x;
+        const int top = (whole_.y / size_ + int(i) / columns_) * size_ - whole_.y;
+        const int x_begin = std::max(left, 0);
+        const int count = std::min(left + size_, whole_.width) - x_begin;
+        const int y_begin = std::max(top, 0);
+        const int y_end = std::min(top + size_, whole_.height);
+        for (int y = y_begin; y < y_end; ++y) {
+            const std::size_t row =
+                std::size_t(cell / cells_per_row) * std::size_t(size_) + std::size_t(y - y_begin);
+            runs.push_back(
+                {row * std::size_t(cells.width) + std::size_t(cell % cells_per_row) * std::size_t(size_),
+                 std::size_t(y) * std::size_t(whole_.width) + std::size_t(x_begin), std::size_t(count)});
+        }
+        ++cell;
+    }
+    return runs;
+}
+
+std::optional<PackedTiles> packed_tiles_of(const LayeredImage& file) {
+    const auto found = file.metadata.find(kTilesKey);
+    if (found == file.metadata.end()) return std::nullopt;
+    PackedTiles tiles(found->second);
+    if (!(tiles.window() == file.data)) fail_as_damaged();
+    return tiles;
+}
+
+LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles) {
+    const std::vector<PixelRun> runs = tiles.runs();
+    image.data = tiles.window();
+    const std::size_t pixels = std::size_t(image.data.width) * std::size_t(image.data.height);
+    for (Layer& layer : image.layers) {
+        const std::size_t channels = layer.channels.size();
+        std::vector<float> packed(channels * pixels);
+        for (const PixelRun& run : runs)
+            std::copy_n(layer.data.data() + channels * run.whole, channels * run.count,
+                        packed.data() + channels * run.packed);
+        layer.data = std::move(packed);
+    }
+    image.metadata[kTilesKey] = tiles.text();
+    return std::move(image);
+}
+
+LayeredImage unpack(LayeredImage&& file) {
+    const std::optional<PackedTiles> tiles = packed_tiles_of(file);
+    if (!tiles) return std::move(file);
+    const std::vector<PixelRun> runs = tiles->runs();
+    file.data = tiles->whole();
+    file.metadata.erase(kTilesKey);
+    const std::int64_t pixels = std::int64_t(file.data.width) * file.data.height;
+    std::int64_t channel_count = 0;
+    for (const Layer& layer : file.layers) channel_count += std::int64_t(layer.channels.size());
+    if (channel_count > kMaxValueCount / pixels)
+        throw std::runtime_error("the image of which it is a part has " + std::to_string(channel_count) +
+                                 " channels, which exceed 2^30 values in total; remove some of them");
+    with_memory_for(file.data.width, file.data.height, channel_count, [&] {
+        for (Layer& layer : file.layers) {
+            if (layer.data.empty()) continue; // only the header was read
+            const std::size_t channels = layer.channels.size();
+            std::vector<float> whole(channels * std::size_t(pixels));
+            for (const PixelRun& run : runs)
+                std::copy_n(layer.data.data() + channels * run.packed, channels * run.count,
+                            whole.data() + channels * run.whole);
+            layer.data = std::move(whole);
+        }
+    });
+    return std::move(file);
+}
+
+} // namespace nusselt::image
