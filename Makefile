@@ -1,6 +1,6 @@
 # make demo, make check and make test need Debian 12 or 13, git and make; scripts/setup.sh installs the rest.
 
-.PHONY: build demo lab check test test-full archive gpu-kit page three wasm site single-header shaders hlsl-msl clean help
+.PHONY: build demo lab check test test-full archive gpu-kit page three wasm python site single-header shaders hlsl-msl clean help
 
 build: ## the programs, optimised, in build/release
 	scripts/setup.sh build
@@ -49,6 +49,10 @@ wasm: ## the library for JavaScript as an npm package: out/wasm (docs/wasm.md)
 	scripts/setup.sh wasm
 	scripts/build.sh nusselt_wasm
 	cmake -E copy_directory build/release/wasm/package out/wasm
+
+python: ## the library and the renderer for Python: a wheel in out/python (docs/python.md)
+	scripts/setup.sh python
+	/usr/bin/python3 python/nusselt_wheel.py out/python
 
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake

@@ -7,9 +7,9 @@
 set -euo pipefail
 cd "${2:-$(dirname "$0")/..}"
 
-sources() { find include src proof lab apps wasm tests examples \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
+sources() { find include src proof lab apps wasm python tests examples \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0; }
 code() {
-    find CMakeLists.txt Makefile include src proof lab apps web wasm site tests examples shaders scripts cmake -type f \( -name '*.h' \
+    find CMakeLists.txt Makefile include src proof lab apps web wasm python site tests examples shaders scripts cmake -type f \( -name '*.h' \
         -o -name '*.cpp' -o -name '*.cu' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' -o -name '*.in' \
         -o -name '*.py' -o -name '*.ts' -o -name '*.sh' -o -name '*.cmake' -o -name CMakeLists.txt -o -name Makefile \) -print0
 }

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
 
-find include src proof lab apps wasm shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
+find include src proof lab apps wasm python shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' -o -name '*.frag' | LC_ALL=C sort | xargs awk '
 BEGIN {
     # Layer, then the layers that it may include besides itself. "library" is all of include/nusselt.
     # Templates see packs through the operations that core names. Only scalar code that takes vertices as lanes names them.
@@ -67,6 +67,8 @@ BEGIN {
     allow("apps/viewer", below " src/scene/colour")
     # The product links nothing of the laboratory.
     allow("apps/nusselt", below " apps/common apps/viewer")
+    # The module for Python, beside the programs.
+    allow("python", "library wasm src/base src/image " scene " src/render src/render_cpu src/render_vulkan src/gpu src/tables")
     allow("lab", below " proof wasm src/interface")
     allow("apps/nusselt-lab", below " proof lab src/fit apps/common")
 
@@ -104,7 +106,7 @@ function layer_of(path,    parts, count, folder) {
 
 # The layer of "name/...": a path from the root for proof, lab and apps, else a module of src or apps/viewer.
 function included_layer(name) {
-    if (name ~ /^(proof|lab|apps|wasm)\//) return layer_of(name)
+    if (name ~ /^(proof|lab|apps|wasm|python)\//) return layer_of(name)
     return name ~ /^viewer\// ? "apps/viewer" : layer_of("src/" name)
 }
 

@@ -12,31 +12,30 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace columns {
 
-/// The number type of all techniques here: registers of WebAssembly and of SSE are equally wide.
-using Floats = Pack<float, 4>;
-
-/// Reads the columns of one group.
+/// Reads the columns of one group. \tparam Real a pack with a light per lane.
+template <class Real>
 struct Reader {
-    const float* first; ///< of lane 0 in column 0
-    std::size_t stride; ///< from one column to the next
+    const scalar_t<Real>* first; ///< of lane 0 in column 0
+    std::size_t stride;          ///< from one column to the next
 
-    Floats number(int column) const noexcept {
-        return Floats::load(first + static_cast<std::size_t>(column) * stride);
+    Real number(int column) const noexcept {
+        return Real::load(first + static_cast<std::size_t>(column) * stride);
     }
-    Vec3<Floats> vector(int column) const noexcept {
+    Vec3<Real> vector(int column) const noexcept {
         return {number(column), number(column + 1), number(column + 2)};
     }
 };
 
 /// Writes the columns of one group.
+template <class Real>
 struct Writer {
-    float* first;
+    scalar_t<Real>* first;
     std::size_t stride;
 
-    void number(int column, const Floats& x) const noexcept {
+    void number(int column, const Real& x) const noexcept {
         x.store(first + static_cast<std::size_t>(column) * stride);
     }
-    void vector(int column, const Vec3<Floats>& v) const noexcept {
+    void vector(int column, const Vec3<Real>& v) const noexcept {
         number(column, v.x);
         number(column + 1, v.y);
         number(column + 2, v.z);
@@ -56,9 +55,10 @@ struct Polygon {
         return columns % 3 == 0 && columns >= 3 * 3 && columns <= 3 * N;
     }
 
-    static ConvexPolygon<Floats, N> read(const Reader& reader, int columns) noexcept {
+    template <class Real>
+    static ConvexPolygon<Real, N> read(const Reader<Real>& reader, int columns) noexcept {
         const int count = columns / 3;
-        Vec3<Floats> vertices[N];
+        Vec3<Real> vertices[N];
         for (int j = 0; j < N; ++j) vertices[j] = reader.vector(3 * (j < count ? j : count - 1));
         return make_polygon<N>(vertices, N);
     }
@@ -74,7 +74,8 @@ struct Line {
     static constexpr int kRandom = 1;
     static constexpr bool takes(int columns) noexcept { return columns == 6; }
 
-    static LineSegment<Floats> read(const Reader& reader, int) noexcept {
+    template <class Real>
+    static LineSegment<Real> read(const Reader<Real>& reader, int) noexcept {
         return make_line(reader.vector(0), reader.vector(3));
     }
 };
@@ -84,7 +85,8 @@ struct Cylinder {
     static constexpr int kRandom = 2;
     static constexpr bool takes(int columns) noexcept { return columns == 7; }
 
-    static nusselt::Cylinder<Floats> read(const Reader& reader, int columns) noexcept {
+    template <class Real>
+    static nusselt::Cylinder<Real> read(const Reader<Real>& reader, int columns) noexcept {
         return {Line::read(reader, columns), reader.number(6)};
     }
 };
@@ -95,10 +97,14 @@ struct OnLobe {
     static constexpr int kRandom = Light::kRandom;
     static constexpr bool takes(int columns) noexcept { return Light::takes(columns - 5); }
 
-    static auto read(const Reader& reader, int columns) noexcept { return Light::read(reader, columns - 5); }
-    static LtcCoefficients<Floats> lobe(const Reader& reader, int columns) noexcept {
+    template <class Real>
+    static auto read(const Reader<Real>& reader, int columns) noexcept {
+        return Light::read(reader, columns - 5);
+    }
+    template <class Real>
+    static LtcCoefficients<Real> lobe(const Reader<Real>& reader, int columns) noexcept {
         const auto entry = [&](int k) { return reader.number(columns - 5 + k); };
-        return {entry(0), entry(1), entry(2), entry(3), entry(4), Floats(1)};
+        return {entry(0), entry(1), entry(2), entry(3), entry(4), Real(1)};
     }
 };
 template <int N>

@@ -12,6 +12,9 @@
 NUSSELT_NAMESPACE_BEGIN
 namespace columns {
 
+/// The number type of all techniques here: registers of WebAssembly and of SSE are equally wide.
+using Floats = Pack<float, 4>;
+
 /// A technique for lights with some numbers of columns. Functions take `groups` groups of four lights. Samples,
 /// densities and directions come in rounds: one of each light. A round is columns like those of lights, and follows
 /// the one before.
@@ -35,7 +38,7 @@ template <class Light, class Technique>
 struct ColumnsOf {
     static constexpr int kLanes = RealTraits<Floats>::kLanes;
 
-    static Technique make(const Reader& reader, int columns) noexcept {
+    static Technique make(const Reader<Floats>& reader, int columns) noexcept {
         if constexpr (std::is_constructible_v<Technique, decltype(Light::read(reader, columns))>)
             return Technique(Light::read(reader, columns));
         else
@@ -44,7 +47,7 @@ struct ColumnsOf {
     static void prepare(const float* lights, int columns, int groups, void* prepared) noexcept {
         for (int i = 0; i < groups; ++i)
             new (static_cast<Technique*>(prepared) + i)
-                Technique(make({lights + kLanes * i, stride(groups)}, columns));
+                Technique(make(Reader<Floats>{lights + kLanes * i, stride(groups)}, columns));
     }
 
     static void sample(const void* prepared, int groups, int rounds, const float* u, float* wi, float* pdf,
@@ -64,7 +67,7 @@ struct ColumnsOf {
     static void invert(const void* prepared, int groups, int rounds, const float* wi, float* u) noexcept {
         for_each(prepared, groups, rounds, [=](const Technique& technique, const Place& at) {
             const auto inverse = technique.invert(at.reader(wi, 3).vector(0));
-            const Writer writer = at.writer(u, Light::kRandom);
+            const Writer<Floats> writer = at.writer(u, Light::kRandom);
             if constexpr (Light::kRandom == 1) {
                 writer.number(0, inverse);
             } else {
@@ -93,10 +96,12 @@ private:
         int round;
         std::size_t stride;
 
-        Reader reader(const float* columns, int count) const noexcept {
+        Reader<Floats> reader(const float* columns, int count) const noexcept {
             return {columns + offset(count), stride};
         }
-        Writer writer(float* columns, int count) const noexcept { return {columns + offset(count), stride}; }
+        Writer<Floats> writer(float* columns, int count) const noexcept {
+            return {columns + offset(count), stride};
+        }
         std::size_t offset(int count) const noexcept {
             return stride * static_cast<std::size_t>(round * count) +
                    static_cast<std::size_t>(kLanes * group);
@@ -110,7 +115,7 @@ private:
                 visit(static_cast<const Technique*>(prepared)[group], Place{group, round, stride(groups)});
     }
 
-    static Vec2<Floats> random(const Reader& u) noexcept {
+    static Vec2<Floats> random(const Reader<Floats>& u) noexcept {
         if constexpr (Light::kRandom == 1)
             return {u.number(0), Floats(0)};
         else

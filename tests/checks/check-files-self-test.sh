@@ -4,7 +4,7 @@ set -euo pipefail
 scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree"/{include,src,proof,lab,apps,web,wasm,site,tests,examples,shaders,scripts,cmake}
+mkdir -p "$tree"/{include,src,proof,lab,apps,web,wasm,python,site,tests,examples,shaders,scripts,cmake}
 cp "$scripts/../.clang-format" "$tree"
 touch "$tree/CMakeLists.txt" "$tree/Makefile"
 good=$'#include "/usr/include/math.h"\nint sum(int a, int b) { return a + b; } // and/or\n'

@@ -8,7 +8,7 @@ trap 'rm -rf "$tree"' EXIT
 # Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
 passes() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,shaders} "$tree/$(dirname "$1")"
+    mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,python,shaders} "$tree/$(dirname "$1")"
     printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
     "$check" "$tree" >"$tree/report"
 }
@@ -28,6 +28,8 @@ right include/nusselt/estimate/a.h <nusselt/related/b.h>
 right include/nusselt/simd/a.h <immintrin.h>
 right include/nusselt/simd/b.h <arm_neon.h>
 right include/nusselt/simd/c.h <wasm_simd128.h>
+right python/bindings/a.cpp "render/backend.h"
+wrong python/bindings/a.cpp "lab/report/report.h"
 right wasm/a.h "wasm/b.h"
 right wasm/a.h <nusselt/core/vec.h>
 wrong wasm/a.h "base/a.h"

@@ -1,7 +1,7 @@
 /// Line samples where it is easy to lose light, or to depend on what must not matter.
 
 #include "line_scenes.h"
-#include "render/line_choice.h"
+#include "render/choices/line_choice.h"
 
 #include <gtest/gtest.h>
 

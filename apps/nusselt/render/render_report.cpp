@@ -6,7 +6,7 @@
 #include "base/json_output.h"
 #include "base/memory_text.h"
 #include "image/io.h"
-#include "render/line_choice.h"
+#include "render/choices/line_choice.h"
 #include "scene/model/scene_size.h"
 
 #include <fmt/core.h>

@@ -7,6 +7,7 @@
 #include "render_backend.h"
 
 #include "image/io.h"
+#include "render/choices/usual_settings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -23,13 +24,10 @@ namespace nusselt::app {
 
 namespace {
 
-/// The strategies of the options. The default is a technique for each component of the BRDF where both have one.
 render::Strategies strategies_of(const RenderOptions& options, render::Technique technique,
                                  render::BrdfChoice brdf) {
     if (options.strategies) return from_name(render::kStrategies, *options.strategies);
-    const auto both = render::Strategies::diffuse_ltc;
-    const bool useful = brdf == render::BrdfChoice::material;
-    return useful && allows(technique, both) ? both : render::Strategies::diffuse;
+    return render::usual_strategies(technique, brdf);
 }
 
 std::vector<render::LayerKind> layers_of(const std::vector<std::string>& names) {
@@ -74,8 +72,7 @@ void check_line_options(const RenderOptions& options, render::Technique techniqu
 
 render::Mis mis_of(const RenderOptions& options, render::Strategies strategies) {
     if (options.mis) return from_name(render::kMisHeuristics, *options.mis);
-    const render::Mis usual = render::RenderSettings().mis;
-    return allows(strategies, usual) ? usual : render::Mis::balance;
+    return render::usual_mis(strategies);
 }
 
 /// \param source what determines the number of samples per pixel
@@ -175,7 +172,7 @@ render::RenderSettings make_settings(const RenderOptions& options) {
 void choose_samples(const RenderOptions& options, const scene::Film& film, render::RenderSettings& settings) {
     if (options.samples) return;
     const int asked = film.pixel_samples.value_or(1);
-    settings.samples = std::min(asked, render::kMaxSamples);
+    settings.samples = render::usual_samples(film);
     check_camera_rays(options, settings.samples,
                       film.pixel_samples ? "the Sampler of the scene asks for; --spp changes them"
                                          : "are the default; --spp changes them");

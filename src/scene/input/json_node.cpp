@@ -110,16 +110,19 @@ json read_json(const std::filesystem::path& path) {
     } catch (const std::runtime_error& reason) {
         fail(reason.what());
     }
-    const std::string_view text = bytes.view();
+    return parse_json(bytes.view(), path);
+}
+
+json parse_json(std::string_view text, const std::filesystem::path& name) {
     const auto syntax_error = [&](std::size_t offset, const std::string& reason) {
         return std::runtime_error(
-            message_line(path.string() + ":" + position_text(text, offset) + ": " + reason));
+            message_line(name.string() + ":" + position_text(text, offset) + ": " + reason));
     };
     // The parser takes it for the end of the text.
     if (const std::size_t nul = text.find('\0'); nul != text.npos)
         throw syntax_error(nul, "invalid JSON: a NUL byte; save the file as UTF-8 text");
     try {
-        return json::parse(text.begin(), text.end(), StructureCheck(path.string()));
+        return json::parse(text.begin(), text.end(), StructureCheck(name.string()));
     } catch (const json::parse_error& reason) {
         // The parser counts the bytes that it has read, with the one over which it stumbled.
         throw syntax_error(std::max<std::size_t>(reason.byte, 1) - 1, syntax_reason(reason.what()));

@@ -19,6 +19,9 @@ namespace nusselt::scene {
 /// is no JSON as a whole (with line and column), repeats a field of an object or nests more than 32 deep.
 nlohmann::json read_json(const std::filesystem::path& path);
 
+/// Parses a text likewise. \param name of the text, with which messages begin
+nlohmann::json parse_json(std::string_view text, const std::filesystem::path& name);
+
 /// What people may call a field that has another name.
 struct FieldSynonym {
     std::string_view word;

@@ -64,8 +64,9 @@ std::string to_camera_text(const FilmedCamera& view) {
     return text + "}}\n";
 }
 
-FilmedCamera read_camera_file(const std::filesystem::path& path) {
-    const nlohmann::json document = read_json(path);
+namespace {
+
+FilmedCamera camera_of(const nlohmann::json& document, const std::filesystem::path& path) {
     const JsonNode root(document, path);
     root.check_fields({"version", "film", "camera"});
     root.at("version").integer(1, 1);
@@ -97,6 +98,14 @@ FilmedCamera read_camera_file(const std::filesystem::path& path) {
     if (!(longest >= 1 / kLongestDirection && longest <= kLongestDirection))
         node.fail("the largest component of corner, right and down must lie between 1e-9 and 1e9");
     return view;
+}
+
+} // namespace
+
+FilmedCamera read_camera_file(const std::filesystem::path& path) { return camera_of(read_json(path), path); }
+
+FilmedCamera parse_camera(std::string_view text, const std::filesystem::path& path) {
+    return camera_of(parse_json(text, path), path);
 }
 
 void apply_camera(const FilmedCamera& view, Scene& scene) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace nusselt::scene {
 
@@ -22,6 +23,9 @@ std::string to_camera_text(const FilmedCamera& view);
 
 /// Throws std::runtime_error with "file: path of the value: message" if the file cannot be read or differs from this.
 FilmedCamera read_camera_file(const std::filesystem::path& path);
+
+/// The same for the text of a file. \param path with which messages begin
+FilmedCamera parse_camera(std::string_view text, const std::filesystem::path& path);
 
 /// Gives the scene this camera, and a film of this size without a crop.
 void apply_camera(const FilmedCamera& view, Scene& scene);

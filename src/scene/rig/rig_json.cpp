@@ -435,10 +435,7 @@ RigMaterial read_material(const JsonNode& entry) {
     return result;
 }
 
-} // namespace
-
-Rig read_rig(const std::filesystem::path& path) {
-    const nlohmann::json document = read_json(path);
+Rig rig_of(const nlohmann::json& document, const std::filesystem::path& path) {
     const JsonNode root(document, path);
     root.check_fields({"version", "comment", "lights", "materials"});
     root.at("version").integer(1, 1);
@@ -449,6 +446,14 @@ Rig read_rig(const std::filesystem::path& path) {
     if (const auto materials = root.find("materials"))
         for (const JsonNode& entry : materials->elements()) rig.materials.push_back(read_material(entry));
     return rig;
+}
+
+} // namespace
+
+Rig read_rig(const std::filesystem::path& path) { return rig_of(read_json(path), path); }
+
+Rig parse_rig(std::string_view text, const std::filesystem::path& path) {
+    return rig_of(parse_json(text, path), path);
 }
 
 } // namespace nusselt::scene

@@ -1,4 +1,4 @@
-#include "render/line_choice.h"
+#include "render/choices/line_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,162 @@
+#include "python/bindings/images.h"
+#include "python/bindings/bindings.h"
+
+#include "image/difference.h"
+#include "image/flip.h"
+#include "image/io.h"
+#include "image/metrics.h"
+#include "image/ssim.h"
+
+#include <pybind11/stl.h>
+
+#include <string>
+
+namespace nusselt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Pixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
+using Channels = std::vector<std::string>;
+
+py::tuple to_tuple(const image::Window& window) {
+    return py::make_tuple(window.x, window.y, window.width, window.height);
+}
+
+image::Window window_of(const py::handle& window) {
+    const auto [x, y, width, height] = window.cast<std::tuple<int, int, int, int>>();
+    return {x, y, width, height};
+}
+
+/// \param pixels (height, width, 3)
+image::Image image_of(const Pixels& pixels) {
+    image::Image image;
+    image.height = static_cast<int>(pixels.shape(0));
+    image.width = static_cast<int>(pixels.shape(1));
+    image.pixels.assign(pixels.data(), pixels.data() + pixels.size());
+    return image;
+}
+
+py::array to_array(image::Image&& image) {
+    return array_of(std::move(image.pixels), {image.height, image.width, 3});
+}
+
+py::array to_array(image::Plane&& plane) {
+    return array_of(std::move(plane.values), {plane.height, plane.width});
+}
+
+py::dict to_dict(const image::Comparison& c) {
+    const auto invalid = [](const image::InvalidPixels& pixels) { return pixels.count; };
+    using namespace py::literals;
+    return py::dict("mse"_a = c.mse, "rmse"_a = c.rmse, "relative_rmse"_a = c.relative_rmse, "mae"_a = c.mae,
+                    "rel_mse"_a = c.rel_mse, "mrse"_a = c.mrse, "mean"_a = c.mean_a,
+                    "mean_of_reference"_a = c.mean_b, "compared_pixels"_a = c.compared_pixels,
+                    "invalid_pixels"_a = invalid(c.invalid_a),
+                    "invalid_pixels_of_reference"_a = invalid(c.invalid_b));
+}
+
+/// Calls a function with two images, without the GIL.
+template <class Function>
+auto with_images(const Pixels& a, const Pixels& reference, const Function& function) {
+    const image::Image image = image_of(a);
+    const image::Image other = image_of(reference);
+    const py::gil_scoped_release release;
+    return function(image, other);
+}
+
+py::tuple flip(const Pixels& a, const Pixels& reference, double pixels_per_degree, double exposure) {
+    auto [map, mean] = with_images(a, reference, [&](const image::Image& x, const image::Image& y) {
+        image::Plane plane = image::flip(x, y, pixels_per_degree, exposure);
+        const double average = image::mean_of_valid(plane, x, y);
+        return std::pair(std::move(plane), average);
+    });
+    return py::make_tuple(to_array(std::move(map)), mean);
+}
+
+py::tuple hdr_flip(const Pixels& a, const Pixels& reference, double pixels_per_degree) {
+    auto [map, mean] = with_images(a, reference, [&](const image::Image& x, const image::Image& y) {
+        image::Plane plane = image::hdr_flip(x, y, image::flip_exposures(y), pixels_per_degree);
+        const double average = image::mean_of_valid(plane, x, y);
+        return std::pair(std::move(plane), average);
+    });
+    return py::make_tuple(to_array(std::move(map)), mean);
+}
+
+void write_image(const std::string& path, const Pixels& pixels, const image::Metadata& metadata,
+                 double exposure) {
+    const image::Image image = image_of(pixels);
+    const py::gil_scoped_release release;
+    image::write_image(path, image, metadata, exposure);
+}
+
+} // namespace
+
+py::tuple to_tuple(image::LayeredImage&& image) {
+    py::list layers;
+    for (image::Layer& layer : image.layers) {
+        const Channels channels(layer.channels.begin(), layer.channels.end());
+        const auto count = static_cast<py::ssize_t>(channels.size());
+        layers.append(
+            py::make_tuple(layer.name, channels,
+                           array_of(std::move(layer.data), {image.data.height, image.data.width, count})));
+    }
+    return py::make_tuple(layers, image.metadata, to_tuple(image.data), to_tuple(image.display),
+                          image.foreign_metadata);
+}
+
+image::LayeredImage layered_image_of(const py::tuple& parts) {
+    image::LayeredImage image;
+    for (const py::handle& part : parts[0]) {
+        const auto [name, channels, data] = part.cast<std::tuple<std::string, Channels, Pixels>>();
+        image::Layer& layer = image.layers.emplace_back();
+        layer.name = name;
+        layer.channels = image::ChannelNames(channels);
+        layer.data.assign(data.data(), data.data() + data.size());
+    }
+    image.metadata = parts[1].cast<image::Metadata>();
+    image.data = window_of(parts[2]);
+    image.display = window_of(parts[3]);
+    image.foreign_metadata = parts[4].cast<image::Metadata>();
+    return image;
+}
+
+void bind_images(py::module_& module) {
+    module.def("read_layers", [](const std::string& path) {
+        image::LayeredImage image = [&] {
+            const py::gil_scoped_release release;
+            return image::read_layers(path);
+        }();
+        return to_tuple(std::move(image));
+    });
+    module.def("write_layers", [](const std::string& path, const py::tuple& parts) {
+        const image::LayeredImage image = layered_image_of(parts);
+        const py::gil_scoped_release release;
+        image::write_layers(path, image);
+    });
+    module.def("read_image", [](const std::string& path) {
+        image::Image image = [&] {
+            const py::gil_scoped_release release;
+            return image::read_image(path);
+        }();
+        return to_array(std::move(image));
+    });
+    module.def("write_image", &write_image);
+    module.def("is_exr", [](const std::string& path) { return image::is_exr(path); });
+    module.def("compare", [](const Pixels& a, const Pixels& reference) {
+        return to_dict(with_images(a, reference, image::compare));
+    });
+    module.def("flip", &flip);
+    module.def("hdr_flip", &hdr_flip);
+    module.attr("pixels_per_degree") = image::kFlipPixelsPerDegree;
+    module.def("psnr", [](const Pixels& a, const Pixels& reference, double exposure) {
+        return with_images(a, reference,
+                           [&](const auto& x, const auto& y) { return image::psnr(x, y, exposure); });
+    });
+    module.def("ssim", [](const Pixels& a, const Pixels& reference, double exposure) {
+        return with_images(a, reference,
+                           [&](const auto& x, const auto& y) { return image::ssim(x, y, exposure); });
+    });
+}
+
+} // namespace nusselt::python

@@ -1,0 +1,31 @@
+"""Importance sampling of area lights, and a renderer: the library Nusselt for numpy.
+
+    import nusselt, numpy
+    light = nusselt.PolygonProjectedSolidAngle([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
+    wi, pdf, p = light.sample(numpy.random.random((1000, 2)))
+
+    scene = nusselt.load("room.pbrt")
+    scene.edit([{"light": "lamp", "scale_radiance": 2}])
+    nusselt.render(scene, samples=16).save("room.exr")
+
+Lengths are in metres, angles in radians, radiance in W/(sr m^2). Directions point away from the surface; shading space has
+the shading point as its origin and the normal as +z.
+"""
+from nusselt import _core, accuracy, bsdf, geometry, images, ltc, random
+from nusselt._lights import Lobe, Sample, Technique
+from nusselt.images import Image, flip, rmse
+from nusselt.ltc import LtcTable
+from nusselt.rendering import Rendering, render, setting_names
+from nusselt.scene import Scene, load
+from nusselt.techniques import *
+from nusselt.techniques import __all__ as _techniques
+
+
+def instruction_set() -> str:
+    """The instruction set of all functions over arrays: sse42, avx2 or avx512. The environment variable NUSSELT_ISA chooses
+    another one before the first call."""
+    return _core.isa()
+
+
+__all__ = ["Image", "Lobe", "LtcTable", "Rendering", "Sample", "Scene", "Technique", "accuracy", "bsdf", "flip", "geometry",
+           "images", "instruction_set", "load", "ltc", "random", "render", "rmse", "setting_names", *_techniques]

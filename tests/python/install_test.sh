@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# pip installs the checkout into an environment with the packages of the system, without a network, and the package works
+# from another folder. Usage: install_test.sh PYTHON BUILD FOLDER
+set -euo pipefail
+python=$1 build=$2 folder=$3
+root=$(cd "$(dirname "$0")/../.." && pwd)
+unset PYTHONPATH
+rm -rf "$folder"
+"$python" -m venv --system-site-packages "$folder"
+cd "$root"
+"$folder/bin/python" -m pip install -q --disable-pip-version-check --no-build-isolation --no-index \
+    --config-settings "build-folder=$build" .
+cd "$folder"
+bin/python - <<END
+import pathlib
+import nusselt
+assert pathlib.Path(nusselt.__file__).is_relative_to("$folder"), nusselt.__file__
+sample = nusselt.PolygonArea([[0, 0, 1], [1, 0, 1], [0, 1, 1]]).sample([0.25, 0.5])
+assert sample.pdf > 0
+scene = nusselt.load("$root/scenes/room.pbrt")
+assert nusselt.render(scene, resolution=(16, 9)).rgb.max() > 0
+END
+bin/python -m pip show -q nusselt

@@ -1,0 +1,89 @@
+"""Images in files and metrics, against numpy and against the command."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import nusselt
+from nusselt import images
+
+
+@pytest.fixture
+def pair(rng):
+    reference = rng.random((24, 32, 3)).astype(np.float32)
+    return reference + rng.normal(scale=0.1, size=reference.shape).astype(np.float32), reference
+
+
+@pytest.mark.parametrize("extension, tolerance", [("exr", 0), ("pfm", 0), ("hdr", 1 / 128), ("png", 1 / 128)])
+def test_files_round_trip(extension, tolerance, pair, tmp_path):
+    _, pixels = pair
+    path = tmp_path / f"image.{extension}"
+    images.write(path, pixels)
+    assert np.abs(images.read(path) - pixels).max() <= tolerance
+
+
+def test_images_of_many_layers_round_trip(rng, tmp_path):
+    layers = {"": rng.random((5, 7, 3)), "depth": rng.random((5, 7, 1)), "motion": rng.random((5, 7, 2))}
+    image = nusselt.Image(layers, {"depth": ["Z"], "motion": ["u", "v"]}, {"note": "by hand"},
+                          data_window=(3, 4, 7, 5), display_window=(0, 0, 20, 10))
+    image.save(tmp_path / "image.exr")
+    read = nusselt.Image.load(tmp_path / "image.exr")
+    for name in layers:
+        assert np.array_equal(read.layers[name], image.layers[name]) and read.channels[name] == image.channels[name]
+    assert read.metadata == image.metadata
+    assert (read.data_window, read.display_window) == ((3, 4, 7, 5), (0, 0, 20, 10))
+
+
+def test_metrics_agree_with_numpy_and_the_command(pair, program, tmp_path):
+    image, reference = pair
+    difference = (image - reference).astype(np.float64)
+    metrics = images.compare(image, reference)
+    assert np.isclose(nusselt.rmse(image, reference), np.sqrt((difference**2).mean()), rtol=1e-6)
+    assert np.isclose(metrics["mae"], np.abs(difference).mean(), rtol=1e-6)
+    images.write(tmp_path / "a.exr", image)
+    images.write(tmp_path / "b.exr", reference)
+    text = subprocess.run([os.environ["NUSSELT_PROGRAM"], "compare", tmp_path / "a.exr", tmp_path / "b.exr", "--metrics", "all",
+                           "--json", "-"], check=True, capture_output=True, text=True).stdout
+    report = json.loads(text)
+    numbers = {key: value for key, value in flatten(report)}
+    assert any(np.isclose(value, metrics["rmse"], rtol=1e-12) for value in numbers.values())
+    for measured in (nusselt.flip(image, reference).mean, images.hdr_flip(image, reference).mean,
+                     images.ssim(image, reference), images.psnr(image, reference)):
+        assert any(np.isclose(value, measured, rtol=1e-9) for value in numbers.values()), (measured, numbers)
+
+
+def flatten(value, name=""):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from flatten(inner, f"{name}.{key}")
+    elif isinstance(value, list):
+        for inner in value:
+            yield from flatten(inner, name)
+    elif isinstance(value, (int, float)):
+        yield name, value
+
+
+def test_flip_maps_show_where_images_differ(pair):
+    _, reference = pair
+    changed = reference.copy()
+    changed[10:14, 10:14] = 0
+    result = nusselt.flip(changed, reference)
+    assert result.map.shape == (24, 32) and 0 < result.mean < 1
+    assert result.map[12, 12] > 5 * result.map[23, 31]
+    assert nusselt.flip(reference, reference).mean == 0
+
+
+def test_wrong_images_are_errors(pair, tmp_path):
+    image, reference = pair
+    with pytest.raises(RuntimeError, match="32.*16|16.*32"):
+        nusselt.rmse(image[:, :16], reference)
+    with pytest.raises(ValueError, match=r"\(height, width, 3\), not \(24, 32\)"):
+        nusselt.rmse(image[..., 0], reference)
+    with pytest.raises(RuntimeError, match="missing.exr"):
+        nusselt.Image.load(tmp_path / "missing.exr")
+    with pytest.raises(RuntimeError, match="image.gif"):
+        images.write(tmp_path / "image.gif", image)
+    with pytest.raises(ValueError, match="one size"):
+        nusselt.Image({"": image, "small": image[:5]})

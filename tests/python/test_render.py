@@ -1,0 +1,161 @@
+"""Renderings have the bits of the command, and can be watched and stopped."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import nusselt
+
+SIZE = (64, 36)
+WHEN = {"render_seconds", "scene", "light_rigs"}  # metadata that settings do not decide
+
+
+@pytest.fixture
+def room(scenes):
+    return nusselt.load(scenes / "room.pbrt")
+
+
+def command(program, path, scene, *options):
+    program("render", scene, "-o", path, "-q", "--resolution", "{}x{}".format(*SIZE), *options)
+    return nusselt.Image.load(path)
+
+
+def assert_same(image, other):
+    assert list(image.layers) and set(image.layers) == set(other.layers)
+    for name, data in image.layers.items():
+        assert image.channels[name] == other.channels[name], name
+        assert np.array_equal(data.view(np.uint32), other.layers[name].view(np.uint32)), name
+    settings = [{key: text for key, text in i.metadata.items() if key not in WHEN} for i in (image, other)]
+    assert settings[0] == settings[1]
+
+
+@pytest.mark.parametrize("options, settings", [
+    ([], {}),
+    (["--spp", "4", "--layers", "all", "--light-samples", "lines", "--lines", "4"],
+     {"samples": 4, "layers": "all", "light_samples": "lines", "lines": 4}),
+    (["--spp", "2", "--technique", "solid_angle", "--strategies", "diffuse+ggx", "--mis", "power", "--sampler",
+      "blue_noise", "--seed", "5", "--camera-rays", "1", "--layers", "albedo,diffuse"],
+     {"samples": 2, "technique": "solid_angle", "strategies": "diffuse+ggx", "mis": "power", "sampler": "blue_noise",
+      "seed": 5, "camera_rays": 1, "layers": ["albedo", "diffuse"]}),
+    (["--spp", "2", "--brdf", "lambert", "--pixel-center", "--part", "2/3"],
+     {"samples": 2, "brdf": "lambert", "pixel_position": "center", "part": (2, 3)}),
+    (["--spp", "2", "--visibility-estimate", "0.25", "--emission-sampling", "measure", "--isa", "sse42"],
+     {"samples": 2, "visibility_estimate": 0.25, "emission_sampling": "measure", "isa": "sse42"})])
+def test_the_room_has_the_bits_of_the_command(options, settings, room, scenes, program, tmp_path):
+    expected = command(program, tmp_path / "room.exr", scenes / "room.pbrt", *options)
+    image = nusselt.render(room, resolution=SIZE, threads=2, **settings)
+    assert_same(image, expected)
+    assert image.finished == 1 and image.statistics["primary_rays"] > 0
+    assert image.rgb.shape == (SIZE[1], SIZE[0], 3) and image.rgb.max() > 0
+
+
+def test_edited_lights_have_the_bits_of_rigs(room, scenes, program, tmp_path):
+    rig = scenes / "rigs/room-tube.json"
+    expected = command(program, tmp_path / "rig.exr", scenes / "room.pbrt", "--spp", "2", "--lights", rig)
+    room.apply_rig(rig)
+    assert_same(nusselt.render(room, 2, resolution=SIZE), expected)
+    room.edit([{"light": 0, "scale_radiance": 1.5}])
+    brighter = nusselt.render(room, 2, resolution=SIZE)
+    assert nusselt.rmse(brighter, expected) > 0
+
+
+def test_files_keep_all_that_an_image_has(room, tmp_path):
+    image = nusselt.render(room, 2, resolution=SIZE, layers="all")
+    image.save(tmp_path / "image.exr")
+    assert_same(nusselt.Image.load(tmp_path / "image.exr"), image)
+    image.save(tmp_path / "image.png", exposure=1)
+    assert nusselt.images.read(tmp_path / "image.png").shape == image.rgb.shape
+
+
+def test_parts_join_to_the_whole_image(room):
+    parts = {f"part {i}": nusselt.render(room, 2, resolution=SIZE, part=(i, 3)) for i in (1, 2, 3)}
+    whole = nusselt.render(room, 2, resolution=SIZE)
+    assert np.array_equal(nusselt.images.merge(parts).rgb, whole.rgb)
+    with pytest.raises(RuntimeError, match="part 1"):
+        nusselt.images.merge({"part 1": parts["part 1"], "again": parts["part 1"]})
+
+
+def test_the_command_has_the_settings_of_python(program):
+    help_text = subprocess.run([os.environ["NUSSELT_PROGRAM"], "render", "--help"], check=True, capture_output=True,
+                               text=True).stdout
+    for setting, names in nusselt.setting_names().items():
+        assert all(name in help_text for name in names), setting
+
+
+@pytest.mark.parametrize("settings, message", [
+    ({"technique": "best"}, "technique: unknown setting 'best'; use one of area"),
+    ({"strategies": "diffuse+ltc", "technique": "area"}, "not supported with technique area"),
+    ({"samples": 0}, "must lie between 1 and"),
+    ({"samples": "many"}, "samples must be a number that fits, not 'many'"),
+    ({"lines": 4}, "lines needs light_samples=\"lines\""),
+    ({"layers": "depths"}, "unknown setting 'depths'"),
+    ({"threads": 0}, "threads must be at least 1"),
+    ({"part": (3, 2)}, "found 3 of 2"),
+    ({"part": "1/2"}, "part must be a pair of whole numbers, not '1/2'"),
+    ({"layers": 3}, "layers must be a name or a list of names, not 3"),
+    ({"backend": "cuda"}, "backend: unknown renderer 'cuda'; use cpu or vulkan"),
+    ({"backend": "vulkan", "isa": "sse42"}, "isa is not supported with backend=\"vulkan\""),
+    ({"shadow_rays": "none"}, "shadow_rays is not supported with backend=\"cpu\"")])
+def test_wrong_settings_are_errors(settings, message, room):
+    with pytest.raises(ValueError, match=message):
+        nusselt.render(room, resolution=(8, 8), **settings)
+
+
+def test_an_unknown_instruction_set_is_an_error(room):
+    with pytest.raises(RuntimeError, match="unknown instruction set 'mmx'"):
+        nusselt.render(room, resolution=(8, 8), isa="mmx")
+
+
+def test_gpus_are_chosen_as_by_the_command(room, scenes, program, tmp_path):
+    try:
+        image = nusselt.render(room, resolution=SIZE, backend="vulkan", shadow_rays="bvh")
+    except RuntimeError as error:
+        pytest.skip(str(error))
+    expected = command(program, tmp_path / "gpu.exr", scenes / "room.pbrt", "--backend", "vulkan", "--shadow-rays", "bvh")
+    assert_same(image, expected)
+    assert nusselt.rmse(image, nusselt.render(room, resolution=SIZE)) < 0.01
+
+
+def test_progress_grows_and_can_stop_a_rendering(room):
+    seen = []
+    nusselt.render(room, 64, resolution=SIZE, progress=seen.append)
+    assert seen == sorted(seen) and seen[-1] == 1
+    image = nusselt.render(room, 1 << 16, progress=lambda fraction: False)
+    assert 0 <= image.finished < 1 and image.metadata["finished_fraction"] != "1"
+
+
+def test_exceptions_of_progress_end_the_rendering(room):
+    def fail(fraction):
+        raise KeyError("stop")
+    with pytest.raises(KeyError):
+        nusselt.render(room, 1 << 16, progress=fail)
+
+
+def test_ctrl_c_ends_the_rendering(scenes):
+    script = f"import nusselt; s = nusselt.load({str(scenes / 'room.pbrt')!r}); print('begun', flush=True); " \
+             "nusselt.render(s, 1 << 18)"
+    child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "begun\n"
+    threading.Event().wait(1)
+    child.send_signal(signal.SIGINT)
+    _, errors = child.communicate(timeout=60)
+    assert child.returncode != 0 and "KeyboardInterrupt" in errors
+
+
+def test_other_threads_run_meanwhile(room):
+    ticks = []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.wait(0.01):
+            ticks.append(1)
+    thread = threading.Thread(target=tick)
+    thread.start()
+    nusselt.render(room, 256, resolution=(128, 72))
+    stop.set()
+    thread.join()
+    assert len(ticks) > 3

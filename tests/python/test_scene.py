@@ -1,0 +1,93 @@
+"""Scenes: what they contain, and edits of lights, materials and camera."""
+import json
+
+import numpy as np
+import pytest
+
+import nusselt
+
+
+@pytest.fixture
+def room(scenes):
+    return nusselt.load(scenes / "room.pbrt")
+
+
+def test_a_scene_shows_its_content(room):
+    assert room.positions.dtype == np.float32 and room.positions.shape[1] == 3
+    assert room.triangles.max() < len(room.positions) and len(room.triangle_lights) == len(room.triangles)
+    assert room.triangle_lights.max() < room.light_count > 0
+    assert (room.triangle_materials < len(room.materials)).all()
+    assert room.files[0].endswith("room.pbrt") and isinstance(room.warnings, list)
+    low, high = room.bounds
+    assert np.isclose(np.linalg.norm(np.subtract(high, low)) / 2, room.radius)
+    assert set(room.materials[0]) >= {"name", "model", "diffuse", "f0", "roughness"}
+    assert len(room.lights) >= 1 and "lights" in room.light_report()
+    with pytest.raises(ValueError, match="read-only"):
+        room.positions[0] = 0
+
+
+def test_lights_round_trip(room):
+    before = room.lights
+    room.edit(before)
+    assert room.lights == before
+
+
+def test_edits_change_lights_and_nothing_else(room):
+    name = room.lights[0]["name"]
+    other = room.copy()
+    positions = room.positions
+    room.edit([{"light": name, "scale_radiance": 2}])
+    before, after = other.lights[0], room.lights[0]
+    (quantity,) = {"radiance", "intensity", "irradiance"} & set(before)
+    assert np.allclose(np.array(after[quantity]), 2 * np.array(before[quantity]))
+    assert room.fingerprint != other.fingerprint
+    assert np.array_equal(positions, other.positions), "arrays outlive edits"
+    room.edit([{"add": "panel", "panel": {"center": [0, 1, 0], "normal": [0, -1, 0], "width": 1, "height": 1},
+                "radiance": 5}], [{"material": 0, "diffuse": 0.5}])
+    assert room.lights[-1]["name"] == "panel" and len(room.lights) == len(other.lights) + 1
+    assert room.materials[0]["diffuse"] == (0.5, 0.5, 0.5)
+
+
+def test_wrong_edits_are_errors_and_change_nothing(room):
+    before = room.fingerprint
+    for entry, message in [({"light": "nobody", "move": [0, 1, 0]}, r"rig: lights\[0\].*nobody"),
+                           ({"light": 0, "colour": [1, 1, 1]}, 'unknown field "colour"; did you mean "radiance"'),
+                           ({"light": 0, "power": -1}, r"lights\[0\]\.power"),
+                           ({"add": "lamp"}, "must have a shape")]:
+        with pytest.raises(RuntimeError, match=message):
+            room.edit([entry])
+    assert room.fingerprint == before
+
+
+def test_rigs_in_files_are_applied(room, scenes, tmp_path):
+    rig = tmp_path / "rig.json"
+    rig.write_text(json.dumps({"version": 1, "lights": [{"light": "*", "scale_radiance": 3}]}))
+    by_dictionary = room.copy()
+    room.apply_rig(rig)
+    by_dictionary.edit([{"light": "*", "scale_radiance": 3}])
+    assert room.fingerprint == by_dictionary.fingerprint
+
+
+def test_cameras_can_be_changed(room):
+    view = room.camera
+    before = room.fingerprint
+    room.camera = view
+    moved = json.loads(json.dumps(view))
+    moved["camera"]["origin"][0] += 0.1
+    moved["film"] = [64, 32]
+    room.camera = moved
+    assert room.camera["film"] == [64, 32] and np.isclose(room.camera["camera"]["origin"][0], moved["camera"]["origin"][0])
+    assert room.fingerprint != before
+    room.resize(20, 10)
+    assert room.camera["film"] == [20, 10]
+    with pytest.raises(RuntimeError, match=r'camera: .*"zoom"'):
+        room.camera = {**moved, "zoom": 2}
+
+
+def test_files_that_are_no_scenes_are_errors(tmp_path):
+    with pytest.raises(RuntimeError, match="missing.pbrt"):
+        nusselt.load(tmp_path / "missing.pbrt")
+    wrong = tmp_path / "wrong.pbrt"
+    wrong.write_text("WorldBegin\nShape \"sphere\" \"float radius\" [\n")
+    with pytest.raises(RuntimeError, match=r"wrong.pbrt:\d+"):
+        nusselt.load(wrong)
