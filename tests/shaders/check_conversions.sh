@@ -17,20 +17,24 @@ compiles() { "$glslang" -D -V -e main -S comp --quiet -o "$work/hlsl.spv" "$1" >
 
 rm -rf "$work"
 cmake -D LIST="$list" -D OUTPUT="$work" -P "$root/scripts/convert-shaders.cmake"
-# Techniques of the library, as scripts/check-techniques.py names them.
-expected=$(PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 python3 -c '
+# Techniques of the library, with the functions that techniques.json says they have: technique, function.
+functions=$(PYTHONPATH=$root/scripts PYTHONDONTWRITEBYTECODE=1 python3 -c '
 import importlib, pathlib, sys
 techniques = importlib.import_module("check-techniques")
 for row in techniques.rows_of(pathlib.Path(sys.argv[1])):
-    if not row["header"].startswith("related/") and "parity" not in techniques.exemptions(row):
-        print(techniques.snake_case(row["name"]))' "$root")
-for name in $expected; do
+    if row["header"].startswith("related/") or "parity" in techniques.exemptions(row):
+        continue
+    glsl = row["glsl"]
+    prefix = glsl.get("functions", glsl["file"].split("/")[-1])
+    queries = glsl.get("queries", prefix)
+    for function in (glsl.get("prepare", prefix + "_prepare"), prefix + "_sample",
+                     *(f"{queries}_{query}" for query in ("pdf", "invert", "measure"))):
+        print(techniques.snake_case(row["name"]), function)' "$root")
+while read -r name function; do
     for file in "$work/hlsl/$name.hlsl" "$work/msl/$name.metal"; do
-        for function in prepare sample pdf invert measure; do
-            grep -qE "^[a-zA-Z0-9]+ ${name}_$function\(" "$file" || { echo "$file: no function ${name}_$function"; failed=1; }
-        done
+        grep -qE "^[a-zA-Z0-9]+ $function\(" "$file" || { echo "$file: no function $function"; failed=1; }
     done
-done
+done <<<"$functions"
 
 compiled=(polygon_projected_solid_angle line_ltc cylinder_solid_angle)
 if [ "${NUSSELT_TEST_EFFORT:-quick}" = full ]; then
