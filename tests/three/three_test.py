@@ -249,10 +249,9 @@ class Example(unittest.TestCase):
     def test_controls_change_the_picture(self):
         self.open_example(self.plain)
         browser = self.browser
-        browser.use_screen(800, 450, False)
-        browser.settle()
         # Few pixels on a large screen, which has room for the controls.
-        browser.script("window.example.mostFrames = 2; window.example.renderer.setSize(64, 36, false)")
+        browser.script("Object.assign(window.example, { mostFrames: 2, mostPixels: 64 * 36 })")
+        browser.use_screen(800, 450, False)
         shown, places = self.shown(), self.places()
 
         def drag(x, y):

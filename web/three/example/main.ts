@@ -52,8 +52,9 @@ function start() {
     const active = find<HTMLInputElement>("active");
     active.addEventListener("change", () => { lights.active = active.checked; });
 
+    const example = { scene, camera, orbit, lights, frames, renderer, floor, lamps, mostFrames, mostPixels };
     const resize = () => {
-        const scale = Math.min(1, Math.sqrt(mostPixels / (innerWidth * innerHeight)));
+        const scale = Math.min(1, Math.sqrt(example.mostPixels / (innerWidth * innerHeight)));
         renderer.setSize(Math.round(scale * innerWidth), Math.round(scale * innerHeight), false);
         camera.aspect = innerWidth / innerHeight;
         camera.updateProjectionMatrix();
@@ -61,7 +62,6 @@ function start() {
     window.addEventListener("resize", resize);
     resize();
 
-    const example = { scene, camera, orbit, lights, frames, renderer, floor, lamps, mostFrames };
     const loop = () => {
         try {
             if (lights.update()) frames.restart();
