@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fails where an #include runs against the arrows of the design: a layer includes only itself, what the table
 # below allows, and system headers; the library includes only the standard library and itself. Folders of
-# shaders/nusselt obey the arrows of the same folders of include/nusselt.
+# shaders/nusselt obey the arrows of the same folders of include/nusselt, and scripts of web/ those of its folders.
 # Usage: scripts/check-includes.sh [ROOT]
 set -euo pipefail
 cd "${1:-$(dirname "$0")/..}"
@@ -156,4 +156,21 @@ FNR == 1 {
         report("the library uses the standard library only, not <" name ">")
 }
 
+END { exit failed }'
+
+# Scripts in TypeScript: web/library is below web/page and web/three, and nothing of web/ depends on the laboratory.
+find web -name '*.ts' | LC_ALL=C sort | xargs -r awk '
+/^(import|export|\}).* from "\.\.\// {
+    folder = FILENAME
+    sub(/\/[^\/]*$/, "", folder)
+    name = $0
+    gsub(/.* from "|";?$/, "", name)
+    while (sub(/^\.\.\//, "", name)) sub(/\/?[^\/]*$/, "", folder)
+    target = folder == "" ? name : folder "/" name
+    split(FILENAME, parts, "/")
+    if (index(target, "web/" parts[2] "/") == 1 || target ~ /^data\// || target == "web/scenes.json") next
+    if (parts[2] != "library" && target ~ /^web\/library\//) next
+    printf "%s:%d: %s must not import %s\n", FILENAME, FNR, FILENAME, target
+    failed = 1
+}
 END { exit failed }'

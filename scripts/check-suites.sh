@@ -17,4 +17,4 @@ python3 scripts/check-techniques.py suites \
     contract="$folder/packs" packs="$folder/packs" inversion="$folder/scalars" density="$folder/scalars" \
     statistics="$folder/statistics" parity="$folder/parity" fuzz="$folder/fuzz" timing="$folder/timing" \
     accuracy=docs/data/accuracy.json gpu_timing="$build/lab/shaders/gpu_samplers_table.h" \
-    cuda="$build/tests/compile/cuda_techniques.cu" wasm="$build/wasm/typescript/techniques.ts"
+    cuda="$build/tests/compile/cuda_techniques.cu" wasm="$build/wasm/typescript/techniques.ts" page=web/library/techniques.ts

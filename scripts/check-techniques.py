@@ -37,6 +37,7 @@ SUITES = {
     "gpu_timing": r'"{}"',
     "cuda": r"<nusselt::{}<",
     "wasm": r'"{}"',
+    "page": r'"{}"',
 }
 # Suites without published methods, which are there to compare with: what programs use.
 FOR_PROGRAMS = {"wasm"}

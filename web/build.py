@@ -4,15 +4,19 @@
 Usage: web/build.py OUTPUT.html
 """
 import base64
+import hashlib
 import json
 import pathlib
+import posixpath
 import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHADERS = ROOT / "shaders/nusselt"
-SCENES = ["web/scenes/floor.pbrt", "scenes/room.pbrt"]
+SCENES = [row["file"] for row in json.loads((ROOT / "web/scenes.json").read_text())]
+# Files of the library that shaders of web/ include themselves.
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
 def licence(maker):
@@ -23,13 +27,31 @@ def licence(maker):
     return f"// Nusselt {version}, put together by {maker}.\n//\n{text}"
 
 
+def registry():
+    """How GLSL names the techniques that the page has, by their names in C++."""
+    named = set(re.findall(r'"(\w+)"', (ROOT / "web/library/techniques.ts").read_text()))
+    rows = json.loads((ROOT / "include/nusselt/techniques.json").read_text())
+    names = {row["name"]: row["glsl"] for row in rows}
+    for published in (row["published"] for row in rows if "published" in row):
+        file = re.sub(r"(?<!^)([A-Z])", r"_\1", published).lower()
+        names[published] = {"file": f"related/{file}", "struct": published}
+    return {name: glsl for name, glsl in names.items() if name in named}
+
+
 def sources():
-    """All shaders of the page, and those of the library that techniques may need."""
+    """All shaders of the page, and the files of the library that they and its techniques include."""
     texts = {file.name: file.read_text() for file in sorted((ROOT / "web/shaders").iterdir())}
-    for folder in ("bsdf", "core", "estimate", "geometry", "ltc", "random", "related", "sampling"):
-        for file in sorted((SHADERS / folder).glob("*.glsl")):
-            texts[f"nusselt/{file.relative_to(SHADERS)}"] = file.read_text()
-    return texts
+    names = registry()
+    waiting = [f"nusselt/{row['file']}.glsl" for row in names.values()]
+    waiting += [name for text in texts.values() for name in INCLUDE.findall(text) if name.startswith("nusselt/")]
+    while waiting:
+        path = waiting.pop()
+        if path in texts:
+            continue
+        texts[path] = (ROOT / "shaders" / path).read_text()
+        folder = posixpath.dirname(path)
+        waiting += [posixpath.normpath(posixpath.join(folder, name)) for name in INCLUDE.findall(texts[path])]
+    return {**texts, "techniques.json": json.dumps(names, separators=(",", ":"))}
 
 
 def scenes(paths):
@@ -51,17 +73,27 @@ def scenes(paths):
 
 def script():
     return subprocess.run(["esbuild", "--bundle", "--format=iife", "--target=es2020", "--charset=utf8",
-                           "--minify-whitespace", "--minify-syntax", str(ROOT / "web/page/main.ts")], check=True, stdout=subprocess.PIPE, text=True).stdout
+                           "--minify-whitespace", "--minify-syntax", str(ROOT / "web/page/main.ts")],
+                          check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def hash_of(text):
+    """The name of a script or style in a policy of content security."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
 def page():
     data = {"licence": licence("its live page"), "sources": sources(), "scenes": scenes(SCENES),
             "lobes": base64.b64encode((ROOT / "data/ltc-frostbite-engine.bin").read_bytes()).decode()}
+    style = "\n" + (ROOT / "lab/report/page/page.css").read_text() + (ROOT / "web/page/page.css").read_text()
+    code = "\n" + script()
     parts = {
-        "@STYLE@": (ROOT / "lab/report/page/page.css").read_text() + (ROOT / "web/page/page.css").read_text(),
+        "@STYLE@": style,
+        "@STYLE_HASH@": hash_of(style),
         # Without `<`, nothing in the text can end its element.
         "@DATA@": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
-        "@SCRIPT@": script(),
+        "@SCRIPT@": code,
+        "@SCRIPT_HASH@": hash_of(code),
     }
     return re.sub("|".join(parts), lambda mark: parts[mark[0]], (ROOT / "web/page/index.html").read_text())
 

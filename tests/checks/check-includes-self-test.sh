@@ -5,11 +5,14 @@ check=$(cd "$(dirname "$0")/../../scripts" && pwd)/check-includes.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 
-# Whether the check passes on a tree whose only source file is $1 with the line `#include $2`.
+# Whether the check passes on a tree whose only source file is $1 with the line `#include $2`, or an import of $2.
 passes() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,python,shaders} "$tree/$(dirname "$1")"
-    printf '#pragma once\n#include %s\n' "$2" >"$tree/$1"
+    mkdir -p "$tree"/{include,src,proof,lab,apps,wasm,python,web,shaders} "$tree/$(dirname "$1")"
+    case "$1" in
+    *.ts) printf '/// Comment.\nimport { a } from %s;\n' "$2" >"$tree/$1" ;;
+    *) printf '#pragma once\n#include %s\n' "$2" >"$tree/$1" ;;
+    esac
     "$check" "$tree" >"$tree/report"
 }
 
@@ -96,5 +99,15 @@ wrong src/render_cpu/a.cpp "local.h"
 wrong src/render_cpu/a.cpp "nusselt/core/vec.h"
 wrong lab/timing/a.cpp "apps/nusselt/b.h"
 wrong src/scene/model/a.cpp "tests/b.h"
+right web/page/a.ts "../library/b"
+right web/page/a.ts "../scenes.json"
+right web/library/a.ts "./b"
+right web/three/example/a.ts "../../library/b"
+right web/three/example/a.ts "../b"
+right web/three/a.ts "../../data/b.bin"
+wrong web/library/a.ts "../page/b"
+wrong web/page/a.ts "../three/b"
+wrong web/page/a.ts "../../lab/b"
+wrong web/three/example/a.ts "../../page/b"
 CASES
 exit $failed

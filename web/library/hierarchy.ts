@@ -1,7 +1,6 @@
 /// A hierarchy of boxes around triangles, in the layout of web/shaders/shadows.glsl.
 
-/// Leaves have fewer triangles: 2^kCountBits of the shader.
-const leafSize = 8;
+import { leafSize } from "./layout";
 
 export interface Hierarchy {
     /// Two texels for each node.

@@ -1,12 +1,10 @@
 /// Lights in uniforms, in the layout of web/shaders/lights.glsl.
 
+import { lightVertices, mostLights } from "./layout";
 import { normalOf } from "./pbrt";
 import { Vector, length, normalize, subtract } from "./vectors";
 
-/// Vertices of a polygonal light; NUSSELT_MAX_VERTICES of most programs.
-export const lightVertices = 4;
-/// Lights of each kind, kMostLights of the shader.
-export const mostLights = 4;
+export { lightVertices, mostLights };
 
 export type LightKind = "polygon" | "line" | "cylinder";
 
@@ -29,14 +27,19 @@ export interface TubularLight {
 
 const black: Vector = [0, 0, 0];
 
-/// \throws Error for more lights than shaders have room for
+/// \throws Error for more lights or vertices than shaders have room for
 export function polygonUniforms(lights: readonly PolygonLight[]): Uniforms {
-    if (lights.length > mostLights) throw new Error(`${lights.length} polygonal lights are too many: at most ${mostLights}`);
+    if (lights.length > mostLights)
+        throw new Error(`${lights.length} polygonal lights are too many: at most ${mostLights}`);
+    const largest = Math.max(0, ...lights.map(light => light.vertices.length));
+    if (largest > lightVertices)
+        throw new Error(`a polygonal light has ${largest} vertices: at most ${lightVertices} are possible`);
     const slots = Array.from({ length: lightVertices }, (_, j) => j);
     // Unused slots repeat the last vertex; the last edge closes the polygon.
     const vertices = lights.flatMap(({ vertices: v }) => slots.map(j => v[Math.min(j, v.length - 1)]));
     const edges = lights.flatMap(({ vertices: v }) => slots.map(j =>
-        j === lightVertices - 1 ? subtract(v[0], v[v.length - 1]) : j < v.length - 1 ? subtract(v[j + 1], v[j]) : black));
+        j === lightVertices - 1 ? subtract(v[0], v[v.length - 1]) : j < v.length - 1 ? subtract(v[j + 1], v[j])
+            : black));
     return new Map<string, readonly number[]>([
         ["polygon_vertices", vertices.flat()],
         ["polygon_edges", edges.flat()],
@@ -49,7 +52,8 @@ export function polygonUniforms(lights: readonly PolygonLight[]): Uniforms {
 
 /// \param number of a tube among all lights of the scene
 /// \throws Error for more lights than shaders have room for
-export function tubeUniforms<T extends TubularLight>(kind: LightKind, tubes: readonly T[], number: (tube: T) => number): Uniforms {
+export function tubeUniforms<T extends TubularLight>(kind: LightKind, tubes: readonly T[],
+    number: (tube: T) => number): Uniforms {
     if (tubes.length > mostLights) throw new Error(`${tubes.length} tubes are too many: at most ${mostLights}`);
     return new Map<string, readonly number[]>([
         [`${kind}_begins`, tubes.flatMap(tube => tube.begin)],

@@ -48,23 +48,25 @@ export interface Scene {
     readonly tubes: readonly Tube[];
 }
 
-type Value = readonly (number | string)[];
-type Parameters = ReadonlyMap<string, Value>;
 /// Three rows of four numbers.
 type Transform = readonly (readonly number[])[];
 
 const identity: Transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]];
 
 function product(a: Transform, b: Transform): Transform {
-    return a.map(row => [0, 1, 2, 3].map(j => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j] + (j === 3 ? row[3] : 0)));
+    const entry = (row: readonly number[], j: number) => row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j];
+    return a.map(row => [0, 1, 2, 3].map(j => entry(row, j) + (j === 3 ? row[3] : 0)));
 }
+
+const translation = ([x, y, z]: Vector): Transform => [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z]];
 
 function rotation(degrees: number, axis: Vector): Transform {
     const [x, y, z] = normalize(axis);
     const c = Math.cos(degrees * Math.PI / 180);
     const s = Math.sin(degrees * Math.PI / 180);
     const d = 1 - c;
-    return [[x * x * d + c, x * y * d - z * s, x * z * d + y * s, 0], [x * y * d + z * s, y * y * d + c, y * z * d - x * s, 0],
+    return [[x * x * d + c, x * y * d - z * s, x * z * d + y * s, 0],
+        [x * y * d + z * s, y * y * d + c, y * z * d - x * s, 0],
         [x * z * d - y * s, y * z * d + x * s, z * z * d + c, 0]];
 }
 
@@ -73,19 +75,74 @@ function apply(m: Transform, p: Vector): Vector {
     return [row(m[0]), row(m[1]), row(m[2])];
 }
 
-function vectorsOf(values: Value): Vector[] {
-    const result: Vector[] = [];
-    for (let i = 0; i + 2 < values.length; i += 3) result.push([Number(values[i]), Number(values[i + 1]), Number(values[i + 2])]);
-    return result;
+/// What stands behind the name of a parameter.
+interface Parameter {
+    readonly type: string;
+    readonly values: readonly string[];
 }
 
-function vectorOf(parameters: Parameters, name: string, standard: Vector): Vector {
-    const value = parameters.get(name);
-    return value === undefined ? standard : vectorsOf(value)[0];
+/// The parameters of a directive. Each is looked at once; the rest are errors, since the image would lack what they
+/// mean.
+class Parameters {
+    /// \param where what messages begin with
+    constructor(private readonly parameters: Map<string, Parameter>, private readonly where: string) {}
+
+    private take(type: string, name: string): readonly string[] | null {
+        const found = this.parameters.get(name);
+        if (found === undefined) return null;
+        this.parameters.delete(name);
+        if (found.type !== type)
+            throw new Error(`${this.where}: "${found.type} ${name}" is not supported, only "${type} ${name}"`);
+        return found.values;
+    }
+
+    /// A text, in quotes or, for the type bool, without.
+    text(type: "string" | "bool", name: string, standard: string): string {
+        const values = this.take(type, name);
+        if (values === null) return standard;
+        if (values.length !== 1) throw new Error(`${this.where}: "${name}" needs one value, not ${values.length}`);
+        return values[0].replace(/^"|"$/g, "");
+    }
+
+    numbers(type: string, name: string): readonly number[] | null {
+        return this.take(type, name)?.map(text => numberOf(text, this.where)) ?? null;
+    }
+
+    number(type: "float" | "integer", name: string, standard: number): number {
+        const values = this.numbers(type, name);
+        if (values === null) return standard;
+        if (values.length !== 1) throw new Error(`${this.where}: "${name}" needs one number, not ${values.length}`);
+        return values[0];
+    }
+
+    vectors(type: string, name: string): Vector[] | null {
+        const values = this.numbers(type, name);
+        if (values === null) return null;
+        if (values.length === 0 || values.length % 3 !== 0)
+            throw new Error(`${this.where}: "${name}" needs three numbers for each vector, not ${values.length}`);
+        const vector = (i: number): Vector => [values[i], values[i + 1], values[i + 2]];
+        return Array.from({ length: values.length / 3 }, (_, i) => vector(3 * i));
+    }
+
+    vector(type: "rgb" | "point3", name: string, standard: Vector): Vector {
+        const vectors = this.vectors(type, name);
+        if (vectors !== null && vectors.length !== 1)
+            throw new Error(`${this.where}: "${name}" needs one vector, not ${vectors.length}`);
+        return vectors?.[0] ?? standard;
+    }
+
+    /// \throws Error for parameters that nobody has looked at
+    finish(): void {
+        for (const [name, { type }] of this.parameters)
+            throw new Error(`${this.where}: the parameter "${type} ${name}" is not supported`);
+    }
 }
 
-function numberOf(parameters: Parameters, name: string, standard: number): number {
-    return Number(parameters.get(name)?.[0] ?? standard);
+function numberOf(text: string, where: string): number {
+    const value = Number(text);
+    if (text === "" || !Number.isFinite(value))
+        throw new Error(`${where}: ${text || "the end of the file"} is not a number`);
+    return value;
 }
 
 /// Strings keep their quotes.
@@ -96,37 +153,40 @@ function tokensOf(text: string): string[] {
 const reflectanceOf = (eta: number, k: number): number => ((eta - 1) ** 2 + k * k) / ((eta + 1) ** 2 + k * k);
 
 function makeMaterial(name: string, parameters: Parameters): Material {
-    const type = parameters.get("type")?.[0];
+    const type = parameters.text("string", "type", "");
+    const isGlossy = type === "coateddiffuse" || type === "conductor";
     // By default, pbrt takes the root for alpha; perceptual roughness is the root of that.
-    const given = numberOf(parameters, "roughness", 0);
-    const alpha = given === 0 ? 0.01 : parameters.get("remaproughness")?.[0] === "false" ? given : Math.sqrt(given);
+    const given = isGlossy ? parameters.number("float", "roughness", 0) : 1;
+    const remaps = isGlossy && parameters.text("bool", "remaproughness", "true") === "true";
+    const alpha = given === 0 ? 0.01 : remaps ? Math.sqrt(given) : given;
     const roughness = Math.sqrt(Math.min(Math.max(alpha, 0.001), 1));
-    const diffuse = vectorOf(parameters, "reflectance", [0.5, 0.5, 0.5]);
     const black: Vector = [0, 0, 0];
-    if (type === "diffuse") return { name, isGlossy: false, diffuse, f0: black, roughness: 1 };
-    if (type === "coateddiffuse") {
-        const f0 = reflectanceOf(numberOf(parameters, "eta", 1.5), 0);
-        return { name, isGlossy: true, diffuse, f0: [f0, f0, f0], roughness };
-    }
     if (type === "conductor") {
-        const eta = vectorOf(parameters, "eta", black);
-        const k = vectorOf(parameters, "k", black);
+        const eta = parameters.vector("rgb", "eta", black);
+        const k = parameters.vector("rgb", "k", black);
         const f0: Vector = [reflectanceOf(eta[0], k[0]), reflectanceOf(eta[1], k[1]), reflectanceOf(eta[2], k[2])];
-        return { name, isGlossy: true, diffuse: black, f0, roughness };
+        return { name, isGlossy, diffuse: black, f0, roughness };
     }
-    throw new Error(`material "${name}": the type ${type} is not supported`);
+    const diffuse = parameters.vector("rgb", "reflectance", [0.5, 0.5, 0.5]);
+    if (type === "diffuse") return { name, isGlossy, diffuse, f0: black, roughness: 1 };
+    if (type === "coateddiffuse") {
+        const f0 = reflectanceOf(parameters.number("float", "eta", 1.5), 0);
+        return { name, isGlossy, diffuse, f0: [f0, f0, f0], roughness };
+    }
+    throw new Error(`material "${name}": the type "${type}" is not supported`);
 }
 
-interface State {
-    transform: Transform;
-    material: number;
-    radiance: Vector | null;
-    block: number;
+/// What AttributeBegin stores.
+interface Attributes {
+    readonly transform: Transform;
+    readonly material: number;
+    readonly radiance: Vector | null;
+    readonly block: number;
 }
 
 class Reader {
-    private state: State = { transform: identity, material: -1, radiance: null, block: 0 };
-    private readonly stack: State[] = [];
+    private state: Attributes = { transform: identity, material: -1, radiance: null, block: 0 };
+    private readonly stack: Attributes[] = [];
     private blocks = 0;
     private isMirrored = false;
     private view: View | null = null;
@@ -139,7 +199,9 @@ class Reader {
 
     scene(): Scene {
         if (this.view === null) throw new Error("the scene has no camera");
-        return { view: { ...this.view, fov: this.fov }, materials: this.materials, polygons: this.polygons, tubes: this.tubes };
+        if (this.stack.length > 0) throw new Error("an AttributeEnd is missing");
+        return { view: { ...this.view, fov: this.fov }, materials: this.materials, polygons: this.polygons,
+            tubes: this.tubes };
     }
 
     read(path: string): void {
@@ -147,46 +209,87 @@ class Reader {
         if (text === undefined) throw new Error(`${path} is missing`);
         const tokens = tokensOf(text);
         let at = 0;
+        let directive = "";
+        const where = () => `${path}, ${directive}`;
         const next = () => tokens[at++] ?? "";
-        const name = () => next().slice(1, -1);
-        const number = () => Number(next());
+        const name = (): string => {
+            const token = next();
+            if (!/^".*"$/s.test(token))
+                throw new Error(`${where()}: ${token || "the end of the file"} is not a text in quotes`);
+            return token.slice(1, -1);
+        };
+        const number = () => numberOf(next(), where());
         const vector = (): Vector => [number(), number(), number()];
-        const values = (): Value => {
-            const read = (token: string) =>
-                token.startsWith('"') ? token.slice(1, -1) : isNaN(Number(token)) ? token : Number(token);
+        const values = (): string[] => {
             const first = next();
-            if (first !== "[") return [read(first)];
-            const list: (number | string)[] = [];
-            for (let token = next(); token !== "]" && token !== ""; token = next()) list.push(read(token));
+            if (first !== "[") return [first];
+            const list: string[] = [];
+            for (let token = next(); token !== "]"; token = next()) {
+                if (token === "") throw new Error(`${where()}: a ] is missing`);
+                list.push(token);
+            }
             return list;
         };
-        const parameters = (): Parameters => {
-            const result = new Map<string, Value>();
-            while ((tokens[at] ?? "").startsWith('"')) result.set(name().split(/\s+/)[1], values());
+        /// Reads parameters and hands them to a function, which has to look at all of them.
+        const withParameters = <T>(use: (parameters: Parameters) => T): T => {
+            const found = new Map<string, Parameter>();
+            while ((tokens[at] ?? "").startsWith('"')) {
+                const [type, key] = name().split(/\s+/);
+                found.set(key ?? "", { type, values: values() });
+            }
+            const parameters = new Parameters(found, where());
+            const result = use(parameters);
+            parameters.finish();
             return result;
         };
+        /// A directive whose first word has to be one that the page can stand for.
+        const only = (supported: string) => {
+            const type = name();
+            if (type !== supported) throw new Error(`${where()}: "${type}" is not supported, only "${supported}"`);
+        };
         while (at < tokens.length) {
-            const directive = next();
+            directive = next();
             switch (directive) {
-            case "Film": case "Sampler": case "PixelFilter": name(); parameters(); break;
+            // The page has its own resolution and number of samples.
+            case "Film":
+                only("rgb");
+                withParameters(p => [p.number("integer", "xresolution", 0), p.number("integer", "yresolution", 0),
+                    p.text("string", "filename", "")]);
+                break;
+            case "Sampler": only("independent"); withParameters(p => p.number("integer", "pixelsamples", 1)); break;
+            case "PixelFilter":
+                only("box");
+                withParameters(p => this.filter(p.number("float", "xradius", 0.5), p.number("float", "yradius", 0.5)));
+                break;
             case "Scale": this.scale(vector()); break;
             case "LookAt": this.view = { eye: vector(), target: vector(), up: vector(), fov: this.fov }; break;
-            case "Camera": this.camera(name(), parameters()); break;
-            case "WorldBegin": this.state.transform = identity; break;
+            case "Camera": only("perspective"); withParameters(p => this.camera(p)); break;
+            case "WorldBegin": this.state = { ...this.state, transform: identity }; break;
             case "AttributeBegin":
                 this.stack.push(this.state);
                 this.state = { ...this.state, block: ++this.blocks };
                 break;
-            case "AttributeEnd": this.state = this.stack.pop() ?? this.state; break;
-            case "Translate": { const [x, y, z] = vector(); this.transform([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z]]); break; }
+            case "AttributeEnd": this.endAttributes(where()); break;
+            case "Translate": this.transform(translation(vector())); break;
             case "Rotate": { const degrees = number(); this.transform(rotation(degrees, vector())); break; }
-            case "MakeNamedMaterial": this.materials.push(makeMaterial(name(), parameters())); break;
+            case "MakeNamedMaterial": {
+                const key = name();
+                this.materials.push(withParameters(p => makeMaterial(key, p)));
+                break;
+            }
             case "NamedMaterial": this.useMaterial(name()); break;
-            case "AreaLightSource": name(); this.state.radiance = vectorOf(parameters(), "L", [1, 1, 1]); break;
-            case "Shape": this.shape(name(), parameters()); break;
+            case "AreaLightSource":
+                only("diffuse");
+                this.state = { ...this.state, radiance: withParameters(p => p.vector("rgb", "L", [1, 1, 1])) };
+                break;
+            case "Shape": { const type = name(); withParameters(p => this.shape(type, p, where())); break; }
             case "Include": {
-                const parts = [...path.split("/").slice(0, -1), ...name().split("/")];
-                this.read(parts.reduce<string[]>((done, part) => part === ".." ? done.slice(0, -1) : [...done, part], []).join("/"));
+                const parts: string[] = [];
+                for (const part of [...path.split("/").slice(0, -1), ...name().split("/")]) {
+                    if (part === "..") parts.pop();
+                    else parts.push(part);
+                }
+                this.read(parts.join("/"));
                 break;
             }
             default: throw new Error(`${path}: ${directive} is not supported`);
@@ -194,7 +297,9 @@ class Reader {
         }
     }
 
-    private transform(t: Transform): void { this.state.transform = product(this.state.transform, t); }
+    private transform(t: Transform): void {
+        this.state = { ...this.state, transform: product(this.state.transform, t) };
+    }
 
     private scale(v: Vector): void {
         // Before the camera, only the reflection that makes pbrt's camera space right-handed.
@@ -202,31 +307,58 @@ class Reader {
         else this.transform([[v[0], 0, 0, 0], [0, v[1], 0, 0], [0, 0, v[2], 0]]);
     }
 
-    private camera(type: string, parameters: Parameters): void {
-        if (type !== "perspective" || !this.isMirrored) throw new Error("cameras must be perspective, after Scale -1 1 1");
-        this.fov = numberOf(parameters, "fov", 90);
+    private filter(x: number, y: number): void {
+        if (x !== 0.5 || y !== 0.5) throw new Error("filters must be boxes of one pixel, with a radius of 0.5");
+    }
+
+    private camera(parameters: Parameters): void {
+        if (!this.isMirrored) throw new Error("cameras must stand after Scale -1 1 1");
+        this.fov = parameters.number("float", "fov", 90);
+    }
+
+    private endAttributes(where: string): void {
+        const before = this.stack.pop();
+        if (before === undefined) throw new Error(`${where}: there is no AttributeBegin before`);
+        this.state = before;
     }
 
     private useMaterial(name: string): void {
-        this.state.material = this.materials.findIndex(material => material.name === name);
-        if (this.state.material < 0) throw new Error(`there is no material "${name}"`);
+        const material = this.materials.findIndex(row => row.name === name);
+        if (material < 0) throw new Error(`there is no material "${name}"`);
+        this.state = { ...this.state, material };
     }
 
-    private shape(type: string, parameters: Parameters): void {
+    private shape(type: string, parameters: Parameters, where: string): void {
         const { transform, material, radiance, block } = this.state;
-        const points = (name: string) => vectorsOf(parameters.get(name) ?? []).map(p => apply(transform, p));
-        const P = points("P");
+        const points = (name: string): Vector[] => {
+            const vectors = parameters.vectors("point3", name);
+            if (vectors === null) throw new Error(`${where}: a ${type} needs "point3 ${name}"`);
+            return vectors.map(p => apply(transform, p));
+        };
+        const needMaterial = () => {
+            if (material < 0) throw new Error(`${where}: a ${type} needs a NamedMaterial before`);
+        };
         if (type === "polygon") {
-            this.polygons.push({ vertices: P, material, radiance, block });
+            needMaterial();
+            const vertices = points("P");
+            if (vertices.length < 3) throw new Error(`${where}: a polygon needs three vertices`);
+            this.polygons.push({ vertices, material, radiance, block });
         } else if (type === "trianglemesh") {
-            for (const indices of vectorsOf(parameters.get("indices") ?? []))
-                this.polygons.push({ vertices: indices.map(i => P[i]), material, radiance, block });
+            needMaterial();
+            const corners = points("P");
+            for (const indices of parameters.vectors("integer", "indices") ?? []) {
+                const vertices = indices.map(i => corners[i]);
+                if (vertices.includes(undefined as unknown as Vector))
+                    throw new Error(`${where}: the mesh has no vertex of an index`);
+                this.polygons.push({ vertices, material, radiance, block });
+            }
         } else if (type === "line") {
-            const isCylinder = parameters.get("finite")?.[0] !== "false";
-            const radius = numberOf(parameters, "radius", 0);
-            this.tubes.push({ begin: points("p0")[0], end: points("p1")[0], radius, radiance: radiance ?? [0, 0, 0], isCylinder, block });
+            const isCylinder = parameters.text("bool", "finite", "true") !== "false";
+            const radius = parameters.number("float", "radius", 0);
+            const [begin, end] = [points("p0")[0], points("p1")[0]];
+            this.tubes.push({ begin, end, radius, radiance: radiance ?? [0, 0, 0], isCylinder, block });
         } else {
-            throw new Error(`shapes of type ${type} are not supported`);
+            throw new Error(`${where}: shapes of type "${type}" are not supported`);
         }
     }
 }

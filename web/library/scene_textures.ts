@@ -1,15 +1,11 @@
 /// A scene in textures and uniforms, in the layout of web/shaders/scene.glsl, shadows.glsl and lights.glsl.
 
 import { makeHierarchy } from "./hierarchy";
+import { models } from "./layout";
 import { LightKind, Uniforms, polygonUniforms, tubeUniforms } from "./light_uniforms";
 import { Polygon, Scene, Tube } from "./pbrt";
 import { Vector, add, cross, normalize, subtract, times } from "./vectors";
 import { Gl, makeArrayTexture } from "./webgl";
-
-// Values of Material::model in the shader.
-const lambert = 0;
-const frostbite = 1;
-const noSurface = 2;
 
 /// Tubes look like prisms with as many sides, as in the C++ renderer.
 const tubeSides = 32;
@@ -74,14 +70,15 @@ class Builder {
 
     constructor(private readonly scene: Scene) {
         this.materials = scene.materials.flatMap(m =>
-            materialTexels(m.isGlossy ? frostbite : lambert, m.diffuse, m.f0, m.roughness, black));
+            materialTexels(m.isGlossy ? models.frostbite : models.lambert, m.diffuse, m.f0, m.roughness, black));
         const lights = scene.polygons.filter(polygon => polygon.radiance !== null);
         for (const polygon of scene.polygons) {
             const light = lights.indexOf(polygon);
-            this.occluders.push(...fan(polygon.vertices, light < 0 ? polygon.material : this.addEmitter(polygon), light));
+            this.occluders.push(...fan(polygon.vertices, light < 0 ? polygon.material : this.addEmitter(polygon),
+                light));
         }
         for (const tube of scene.tubes) {
-            this.materials.push(...materialTexels(noSurface, black, black, 1, tube.radiance));
+            this.materials.push(...materialTexels(models.noSurface, black, black, 1, tube.radiance));
             this.others.push(...prism(tube, this.materials.length / 12 - 1));
         }
         const number = (tube: Tube) => lights.length + scene.tubes.indexOf(tube);
@@ -93,7 +90,8 @@ class Builder {
     /// The material of a surface that emits.
     private addEmitter(polygon: Polygon): number {
         const m = this.scene.materials[polygon.material];
-        this.materials.push(...materialTexels(m.isGlossy ? frostbite : lambert, m.diffuse, m.f0, m.roughness,
+        this.materials.push(...materialTexels(m.isGlossy ? models.frostbite : models.lambert, m.diffuse, m.f0,
+            m.roughness,
             polygon.radiance ?? black));
         return this.materials.length / 12 - 1;
     }
@@ -113,7 +111,8 @@ export function makeSceneTextures(gl: Gl, scene: Scene): SceneTextures {
     const builder = new Builder(scene);
     const hierarchy = makeHierarchy(builder.occluders.flatMap(triangle => triangle.corners.flat()));
     const triangles = [...hierarchy.order.map(i => builder.occluders[i]), ...builder.others];
-    const texels = triangles.flatMap(({ corners: [a, b, c], material, light }) => [...a, material, ...b, light, ...c, 0]);
+    const texels = triangles.flatMap(({ corners: [a, b, c], material, light }) => [...a, material, ...b, light, ...c,
+        0]);
     builder.uniforms.set("node_count", [hierarchy.nodeCount]);
     builder.uniforms.set("scene_radius", [radiusOf(triangles)]);
     return {

@@ -1,5 +1,7 @@
 /// Puts shaders together from the files of shaders/nusselt and others that include them.
 
+import { layout } from "./layout";
+
 /// Texts of files by their paths, such as "nusselt/core/real.glsl".
 export type Sources = ReadonlyMap<string, string>;
 
@@ -41,7 +43,7 @@ function flatten(sources: Sources, path: string, text: string, seen: Set<string>
 /// \param text   of its main file.
 /// \param values of the templates in all of its files.
 export function assemblePart(sources: Sources, text: string, values: Values = {}): string {
-    return fillTemplate(flatten(sources, "", text, new Set()), values);
+    return fillTemplate(flatten(sources, "", text, new Set()), { ...layout, ...values });
 }
 
 /// A complete shader for WebGL 2; parameters as above.

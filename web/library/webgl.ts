@@ -1,5 +1,9 @@
 /// Programs, textures and framebuffers of WebGL 2.
 
+import { rowLength } from "./layout";
+
+export { rowLength };
+
 export type Gl = WebGL2RenderingContext;
 
 /// A compiled program and its uniforms by name.
@@ -83,14 +87,12 @@ export function makeTexture(gl: Gl, format: TextureFormat, width: number, height
     const texture = gl.createTexture();
     if (texture === null) throw new Error("the graphics context is lost");
     gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+        gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
     for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
     gl.texImage2D(gl.TEXTURE_2D, 0, format.internal, width, height, 0, format.format, format.type, data);
     return texture;
 }
-
-/// Texels per row of textures that hold arrays, 2^kRowBits of the shaders.
-export const rowLength = 1024;
 
 /// An array of texels with four floats. Its length grows to whole rows.
 export function makeArrayTexture(gl: Gl, values: Float32Array): WebGLTexture {
@@ -106,29 +108,43 @@ export interface Target {
     readonly framebuffer: WebGLFramebuffer;
     readonly width: number;
     readonly height: number;
+    /// By which nearer fragments hide others; null where none do.
+    readonly depth: WebGLRenderbuffer | null;
 }
 
-/// \param hasDepth whether nearer fragments hide others
-export function makeTarget(gl: Gl, format: TextureFormat, width: number, height: number, hasDepth = false): Target {
+/// \throws Error where the device has no memory for it
+export function makeTarget(gl: Gl, format: TextureFormat, width: number, height: number): Target {
     const texture = makeTexture(gl, format, width, height);
     const framebuffer = gl.createFramebuffer();
     if (framebuffer === null) throw new Error("the graphics context is lost");
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-    if (hasDepth) {
-        const depth = gl.createRenderbuffer();
-        gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
-        gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
-        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
-    }
-    return { texture, framebuffer, width, height };
+    requireComplete(gl, width, height);
+    return { texture, framebuffer, width, height, depth: null };
+}
+
+/// A target in which nearer fragments hide others.
+/// \throws Error where the device has no memory for it
+export function makeDepthTarget(gl: Gl, format: TextureFormat, width: number, height: number): Target {
+    const target = makeTarget(gl, format, width, height);
+    const depth = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+    requireComplete(gl, width, height);
+    return { ...target, depth };
+}
+
+function requireComplete(gl: Gl, width: number, height: number): void {
+    // A lost context is reported by its event.
+    const isComplete = gl.checkFramebufferStatus(gl.FRAMEBUFFER) === gl.FRAMEBUFFER_COMPLETE
+        && gl.getError() === gl.NO_ERROR;
+    if (!isComplete && !gl.isContextLost())
+        throw new Error(`The device has no memory for ${width} × ${height} pixels: choose a smaller size.`);
 }
 
 export function deleteTarget(gl: Gl, target: Target): void {
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-    const depth: unknown = gl.getFramebufferAttachmentParameter(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT,
-        gl.FRAMEBUFFER_ATTACHMENT_OBJECT_NAME);
-    if (depth instanceof WebGLRenderbuffer) gl.deleteRenderbuffer(depth);
+    gl.deleteRenderbuffer(target.depth);
     gl.deleteFramebuffer(target.framebuffer);
     gl.deleteTexture(target.texture);
 }

@@ -38,7 +38,8 @@ const far = 200;
 
 /// clip_from_world, column by column.
 /// \param offset of the image, in pixels to the left and upwards
-export function matrixOf(camera: Camera, width: number, height: number, offset: readonly [number, number]): Float32Array {
+export function matrixOf(camera: Camera, width: number, height: number,
+    offset: readonly [number, number]): Float32Array {
     const x = times(1 / camera.tangentX, camera.right);
     const y = times(1 / camera.tangentY, camera.up);
     const f = camera.forward;
@@ -55,28 +56,46 @@ export function project(camera: Camera, p: Vector): readonly [number, number] | 
     const v = subtract(p, camera.eye);
     const depth = dot(v, camera.forward);
     if (depth <= near) return null;
-    return [0.5 + 0.5 * dot(v, camera.right) / (depth * camera.tangentX), 0.5 - 0.5 * dot(v, camera.up) / (depth * camera.tangentY)];
+    return [0.5 + 0.5 * dot(v, camera.right) / (depth * camera.tangentX),
+        0.5 - 0.5 * dot(v, camera.up) / (depth * camera.tangentY)];
 }
 
+/// What keys and pointers can reach: cosines with the vertical axis, distances of eye and target, and coordinates [m].
 const steepest = 0.98;
+const nearest = 0.3;
+const farthest = 50;
+const outermost = 100;
+/// Links round numbers.
+const slack = 1.001;
+
+/// Whether a view has an image: neither vertical, nor too near or far.
+export function isUsable(view: View): boolean {
+    const offset = subtract(view.eye, view.target);
+    const distance = length(offset);
+    return Math.max(...view.eye.map(Math.abs), ...view.target.map(Math.abs)) <= outermost &&
+        distance * slack >= nearest && distance <= farthest * slack &&
+        Math.abs(dot(offset, view.up)) <= steepest * slack * distance * length(view.up);
+}
+
+const moved = (before: View, after: View): View => isUsable(after) ? after : before;
 
 /// Turns the eye around the target, by angles to the right and upwards [rad]. The view never becomes vertical.
 export function orbit(view: View, right: number, up: number): View {
-    let offset = rotate(subtract(view.eye, view.target), view.up, right);
+    const offset = rotate(subtract(view.eye, view.target), view.up, right);
     const tilted = rotate(offset, normalize(cross(view.up, offset)), -up);
-    if (Math.abs(dot(normalize(tilted), view.up)) < steepest) offset = tilted;
-    return { ...view, eye: add(view.target, offset) };
+    const isLevel = Math.abs(dot(normalize(tilted), view.up)) < steepest;
+    return moved(view, { ...view, eye: add(view.target, isLevel ? tilted : offset) });
 }
 
 /// Moves the eye towards the target by a factor of the distance.
 export function zoom(view: View, factor: number): View {
     const offset = subtract(view.eye, view.target);
-    const distance = Math.min(Math.max(length(offset) / factor, 0.3), 50);
-    return { ...view, eye: add(view.target, times(distance, normalize(offset))) };
+    const distance = Math.min(Math.max(length(offset) / factor, nearest), farthest);
+    return moved(view, { ...view, eye: add(view.target, times(distance, normalize(offset))) });
 }
 
 /// Moves both along the image [m].
 export function pan(view: View, camera: Camera, right: number, up: number): View {
     const step = add(times(right, camera.right), times(up, camera.up));
-    return { ...view, eye: add(view.eye, step), target: add(view.target, step) };
+    return moved(view, { ...view, eye: add(view.eye, step), target: add(view.target, step) });
 }

@@ -3,8 +3,8 @@
 type Attribute = string | number | boolean | null | ((event: Event) => void);
 
 /// An element with attributes and children. Functions listen to the event of their name; null and false are left out.
-export function element<K extends keyof HTMLElementTagNameMap>(name: K, attributes: Record<string, Attribute> = {},
-                                                               ...children: (Node | string)[]): HTMLElementTagNameMap[K] {
+export function element<K extends keyof HTMLElementTagNameMap>(
+    name: K, attributes: Record<string, Attribute> = {}, ...children: (Node | string)[]): HTMLElementTagNameMap[K] {
     const node = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) {
         if (typeof value === "function") node.addEventListener(key, value);
@@ -30,7 +30,8 @@ export interface Option {
 }
 
 /// A drop-down list with a visible label.
-export function select(label: string, id: string, options: readonly Option[], onChange: (value: string) => void): Control<string> & {
+export function select(label: string, id: string, options: readonly Option[],
+    onChange: (value: string) => void): Control<string> & {
     readonly list: HTMLSelectElement;
 } {
     const list: HTMLSelectElement = element("select", { id, change: () => onChange(list.value) },
@@ -51,7 +52,8 @@ export interface Range {
 /// A slider with a visible label and the text that its value stands for.
 export function slider(label: string, id: string, range: Range, textOf: (value: number) => string,
                        onInput: (value: number) => void): Control<number> {
-    const input: HTMLInputElement = element("input", { type: "range", id, ...range, input: () => onInput(Number(input.value)) });
+    const input: HTMLInputElement = element("input", { type: "range", id, ...range,
+        input: () => onInput(Number(input.value)) });
     const output = element("output", { for: id });
     return {
         node: element("label", { class: "field" }, element("span", {}, label), input, output),
@@ -78,9 +80,11 @@ export async function copyText(text: string, message: HTMLElement, what: string)
         message.textContent = `Copied ${what}`;
     } catch {
         const area = element("textarea", { readonly: true, rows: 12, "aria-label": what }, text);
-        const dialog: HTMLDialogElement = element("dialog", { class: "copy-dialog" },
-            element("p", {}, "The browser does not let this page copy. Press Ctrl+C:"), area,
-            button("Close", {}, () => dialog.remove()));
+        const dialog: HTMLDialogElement = element("dialog", { class: "copy-dialog", "aria-label": `Copy ${what}` },
+            element("p", {}, "The browser does not let this page copy. Copy the selected text yourself:"), area,
+            button("Close", {}, () => dialog.close()));
+        // Also after Escape.
+        dialog.addEventListener("close", () => dialog.remove());
         document.body.append(dialog);
         dialog.showModal();
         area.select();

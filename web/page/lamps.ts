@@ -33,7 +33,9 @@ function moved(p: Vector, lamp: Lamp, state: LampState): Vector {
 }
 
 /// The scene with changed lamps and another roughness of its floor.
-export function changedScene(scene: Scene, lamps: readonly Lamp[], states: readonly LampState[], roughness: number | null): Scene {
+/// \param floor the name of its material
+export function changedScene(scene: Scene, lamps: readonly Lamp[], states: readonly LampState[], floor: string,
+                             roughness: number | null): Scene {
     const changeOf = (block: number) => {
         const index = lamps.findIndex(lamp => lamp.block === block);
         return { lamp: lamps[index], state: states[index] ?? untouchedLamp };
@@ -49,9 +51,8 @@ export function changedScene(scene: Scene, lamps: readonly Lamp[], states: reado
         return { ...tube, radiance: times(state.brightness, tube.radiance), begin: moved(tube.begin, lamp, state),
             end: moved(tube.end, lamp, state) };
     });
-    const floor = floorOf(scene);
-    const materials = scene.materials.map((material, i) =>
-        i === floor && roughness !== null ? { ...material, roughness } : material);
+    const materials = scene.materials.map(material =>
+        material.name === floor && roughness !== null ? { ...material, roughness } : material);
     return { ...scene, polygons, tubes, materials };
 }
 
@@ -59,6 +60,3 @@ export function changedScene(scene: Scene, lamps: readonly Lamp[], states: reado
 export function withLines(scene: Scene): Scene {
     return { ...scene, tubes: scene.tubes.map(tube => ({ ...tube, isCylinder: false })) };
 }
-
-/// The material of the first shape, which the slider of the roughness changes.
-export const floorOf = (scene: Scene): number => scene.polygons[0].material;

@@ -3,10 +3,12 @@
 import { halton } from "../library/halton";
 import { Scene, View, readScene } from "../library/pbrt";
 import { techniqueOf } from "../library/techniques";
+import { isUsable } from "./camera";
 import { fitHeuristic, makeControls, makeNumbers } from "./controls";
 import { element } from "./dom";
-import { Lamp, changedScene, floorOf, lampsOf, withLines } from "./lamps";
-import { Errors, ImageName, ImageSettings, Renderer } from "./renderer";
+import { Lamp, changedScene, lampsOf, withLines } from "./lamps";
+import { FrameWork, Pacing } from "./pacing";
+import { Errors, ImageName, ImageSettings, Place, Renderer } from "./renderer";
 import { sceneOf } from "./scenes";
 import { makeStage } from "./stage";
 import { Side, State, linkOf, stateOf } from "./state";
@@ -20,16 +22,9 @@ interface Data {
     readonly lobes: string;
 }
 
-const mostFramesInFlight = 2;
-const referenceSeed = 1;
-/// Frames of devices for which the reference takes less noise and more code [ms].
-const referenceFrameTime = 100;
-/// Widths for "automatic" [pixels]: the first one, unless frames take less or more time than these [ms].
-const firstWidth = 480;
-const fast = { frameTime: 20, width: 960 };
-const slow = { frameTime: 400, width: 320 };
-/// The reference waits for so many frames, since its program takes time to compile.
-const framesBeforeReference = 8;
+/// Each seed of the state has so many: the first one for both images, the second one for the reference, and others for
+/// frames that do not add up.
+const seedsOfState = 65536;
 const errorInterval = 500; ///< [ms]
 const storeDelay = 300; ///< after the last change [ms]
 
@@ -37,78 +32,74 @@ class Page {
     private state: State;
     private readonly files: ReadonlyMap<string, string>;
     private readonly renderer: Renderer;
+    private readonly pacing = new Pacing();
     private scene: Scene;
     private lamps: Lamp[];
     private readonly controls;
     private readonly numbers = makeNumbers();
     private readonly stage;
-    private automaticWidth = firstWidth;
-    /// Images whose programs have drawn.
-    private readonly warm = new Set<string>();
-    private frame = 0;
-    /// Frames that the device has not finished.
-    private framesInFlight = 0;
-    /// Whether the device may be compiling: it does nothing else then.
-    private isCompiling = false;
-    private lastTime = 0;
-    private frameTime = 0;
-    private steadyFrames = 0;
-    private lastChange = 0;
+    /// Counts changes of the state.
+    private changes = 0;
+    /// Counts frames that did not add up.
+    private singleFrames = 0;
     private referenceTechnique = "projected";
     private errors: Errors | null = null;
     private lastErrors = 0;
     private isDirty = true;
     private storing = 0;
+    /// After a failure, until something changes.
+    private isStopped = false;
+    private isLost = false;
 
     constructor(private readonly data: Data) {
         this.state = stateOf(location.hash);
-        this.fitHeuristics();
         this.files = new Map(Object.entries(data.scenes));
         this.scene = this.readScene();
         this.lamps = lampsOf(this.scene);
+        this.fit();
         const change = (edit: (state: State) => void) => this.change(edit);
         this.stage = makeStage({ change, view: () => this.view(), state: () => this.state });
         this.controls = makeControls({
             change,
-            chooseScene: name => this.change(state => Object.assign(state, { scene: name, camera: null, lamps: [], roughness: null })),
+            chooseScene: name => this.change(state => Object.assign(state,
+                { scene: name, camera: null, lamps: [], roughness: null })),
             shaderText: side => this.shaderText(side),
             link: () => this.link(),
         });
         document.getElementById("page")?.append(this.stage.node, this.numbers.node, this.controls.node, help());
-        const gl = this.stage.canvas.getContext("webgl2", { antialias: false, depth: false, powerPreference: "high-performance" });
+        const gl = this.stage.canvas.getContext("webgl2", { antialias: false, depth: false,
+            powerPreference: "high-performance" });
         if (gl === null) throw new Error("This browser or device has no WebGL 2.");
         const lobes = Uint8Array.from(atob(data.lobes), c => c.charCodeAt(0));
         this.renderer = new Renderer(gl, new Map(Object.entries(data.sources)), lobes);
         this.showLamps();
-        this.update(null);
+        this.attempt(() => this.update(null));
         window.addEventListener("hashchange", () => this.change(state => Object.assign(state, stateOf(location.hash))));
-        this.stage.canvas.addEventListener("webglcontextlost", () => fail(new Error("The device was reset; load the page again.")));
+        this.stage.canvas.addEventListener("webglcontextlost", () => {
+            this.isLost = true;
+            this.stop(new Error("The device was reset; load the page again."));
+        });
         const loop = () => {
-            try {
-                if (!this.isCompiling && this.framesInFlight < mostFramesInFlight) this.draw();
-                requestAnimationFrame(loop);
-            } catch (error) {
-                fail(error);
-            }
+            if (!this.isStopped && this.pacing.isFree) this.attempt(() => this.draw());
+            requestAnimationFrame(loop);
         };
         requestAnimationFrame(loop);
     }
 
-    /// Resolves to the mean of an image, for tests: red, green, blue and the number of frames, row by row from the
-    /// bottom.
-    async image(name: ImageName): Promise<number[]> {
-        const sums = await this.renderer.read(name);
-        return Array.from(sums, (sum, i) => i % 4 === 3 ? sum : sum / sums[i - i % 4 + 3]);
+    /// Resolves to an image, for tests: the number of frames, the mean of red, green and blue, row by row from the
+    /// bottom, and how many samples were not finite.
+    async image(name: ImageName): Promise<{ count: number; mean: number[]; rejected: number }> {
+        const { sums, count } = await this.renderer.read(name);
+        return {
+            count, mean: Array.from(sums.filter((_, i) => i % 4 !== 3), sum => sum / count),
+            rejected: sums.reduce((total, value, i) => i % 4 === 3 ? total + value : total, 0),
+        };
     }
 
     frames(name: ImageName): number { return this.renderer.frameCount(name); }
 
-    /// A complete fragment shader, as it runs.
+    /// A complete fragment shader, with its loops.
     shaderText(side: Side): string { return this.renderer.shaderText(side).replace("\n", `\n${this.data.licence}\n`); }
-
-    private readScene(): Scene { return readScene(this.files, sceneOf(this.state.scene).file); }
-
-    private view(): View { return { ...this.scene.view, ...this.state.camera }; }
 
     /// Leads to what is shown.
     link(): string {
@@ -116,25 +107,49 @@ class Page {
         return location.href.replace(/#.*/, "") + (link === "" ? "" : `#${link}`);
     }
 
-    private change(edit: (state: State) => void): void {
-        const before = this.state;
-        const edited = stateOf(linkOf(before));
-        edit(edited);
-        // Rounded as in links, so that these lead to the same image.
-        this.state = stateOf(linkOf(edited));
-        this.fitHeuristics();
-        this.lastChange = performance.now();
-        if (before.scene !== this.state.scene) {
-            this.scene = this.readScene();
-            this.lamps = lampsOf(this.scene);
-            this.showLamps();
+    /// Does something, and shows what goes wrong: in listeners and promises, nobody else would.
+    private attempt(action: () => void): void {
+        try {
+            action();
+        } catch (error) {
+            this.stop(error);
         }
-        this.update(before);
     }
 
-    private fitHeuristics(): void {
+    private stop(error: unknown): void {
+        this.isStopped = true;
+        fail(error);
+    }
+
+    private readScene(): Scene { return readScene(this.files, sceneOf(this.state.scene).file); }
+
+    private view(): View { return { ...this.scene.view, ...this.state.camera }; }
+
+    private change(edit: (state: State) => void): void {
+        if (this.isLost) return;
+        this.attempt(() => {
+            if (this.isStopped) restart();
+            this.isStopped = false;
+            const before = this.state;
+            const edited = stateOf(linkOf(before));
+            edit(edited);
+            // Rounded as in links, so that these lead to the same image.
+            this.state = stateOf(linkOf(edited));
+            if (before.scene !== this.state.scene) {
+                this.scene = this.readScene();
+                this.lamps = lampsOf(this.scene);
+                this.showLamps();
+            }
+            this.fit();
+            this.update(before);
+        });
+    }
+
+    /// Replaces what does not go with the rest of the state.
+    private fit(): void {
         fitHeuristic(this.state.left);
         fitHeuristic(this.state.right);
+        if (!isUsable(this.view())) this.state.camera = null;
     }
 
     private showLamps(): void {
@@ -147,21 +162,31 @@ class Page {
         const { state, renderer } = this;
         const changed = (...keys: (keyof State)[]) =>
             before === null || keys.some(key => JSON.stringify(before[key]) !== JSON.stringify(state[key]));
+        const { floor } = sceneOf(state.scene);
         if (changed("scene", "lamps", "roughness", "thickTubes")) {
-            const scene = changedScene(this.scene, this.lamps, state.lamps, state.roughness);
+            const scene = changedScene(this.scene, this.lamps, state.lamps, floor, state.roughness);
             renderer.setScene(state.thickTubes ? scene : withLines(scene));
         }
         if (changed("scene", "camera")) renderer.setView(this.view());
         this.resize();
-        if (changed("scene", "lamps", "roughness", "camera", "shadows", "thickTubes", "accumulates", "smoothsEdges", "mostFrames")) this.clear();
+        if (changed("scene", "lamps", "roughness", "camera", "shadows", "thickTubes")) renderer.clear();
+        if (changed("accumulates", "smoothsEdges", "mostFrames", "seed")) renderer.clear();
         for (const name of ["left", "right"] as const) if (changed(name, "samples")) renderer.clear([name]);
-        if (changed("compares")) renderer.clear(["right"]);
+        if (!state.compares) renderer.drop(["right"]);
+        if (!state.reference) renderer.drop(["reference"]);
         this.stage.show(state, [techniqueOf(state.left.technique).label, techniqueOf(state.right.technique).label]);
-        this.controls.show(state, this.scene.materials[floorOf(this.scene)].roughness);
+        this.controls.show(state, this.scene.materials.find(material => material.name === floor)?.roughness ?? 1);
+        this.showFailures();
         this.isDirty = true;
-        this.steadyFrames = 0;
+        this.pacing.change(performance.now());
+        ++this.changes;
         this.errors = null;
         if (before !== null) this.storeSoon();
+    }
+
+    private showFailures(): void {
+        const { state: { left, right }, renderer } = this;
+        this.controls.showFailures({ left: renderer.failureOf(left), right: renderer.failureOf(right) });
     }
 
     /// Puts the state into the address. Browsers count how often pages do that.
@@ -173,115 +198,114 @@ class Page {
         }, storeDelay);
     }
 
-    private clear(): void {
-        this.renderer.clear();
-        this.frame = 0;
-    }
-
     private resize(): void {
-        const width = this.state.width || this.automaticWidth;
-        if (width === this.renderer.width) return;
+        const width = this.state.width || this.pacing.width;
         this.renderer.resize(width, width * 9 / 16);
-        this.frame = 0;
     }
 
-    /// The images of this frame.
-    private wanted(): [ImageName, ImageSettings][] {
-        const { state, renderer } = this;
+    /// The images of this frame, whose programs need not be ready.
+    private imagesToDraw(): [ImageName, ImageSettings][] {
+        const { state, renderer, pacing } = this;
         const { samples, shadows } = state;
-        const images: [ImageName, ImageSettings][] = [["left", { ...state.left, samples, shadows, seed: 0 }]];
-        if (state.compares) images.push(["right", { ...state.right, samples, shadows, seed: 0 }]);
-        const isUnfinished = (name: ImageName) => !this.addsUp(name) || renderer.frameCount(name) < state.mostFrames;
-        const unfinished = images.filter(([name]) => isUnfinished(name));
-        // On slow devices, the reference takes a part of the time, and none while something moves.
-        const isFast = this.frameTime < referenceFrameTime;
-        const isResting = performance.now() - this.lastChange > 300 && this.frame >= framesBeforeReference;
-        const hasTime = isFast || this.frame % 4 === 3 || unfinished.length === 0;
-        if (state.reference && isResting && hasTime && isUnfinished("reference")) {
-            if (renderer.frameCount("reference") === 0) this.referenceTechnique = isFast ? "projected_ltc" : "projected";
-            unfinished.push(["reference", { technique: this.referenceTechnique, heuristic: "clamped_optimal", sampler: "sobol",
-                samples: 1, shadows, seed: referenceSeed }]);
+        const seed = seedsOfState * state.seed;
+        const sides = state.compares ? ["left", "right"] as const : ["left"] as const;
+        const isUnfinished = ([name, side]: [ImageName, ImageSettings]) => renderer.stateOf(side) !== "failed" &&
+            (!this.addsUp(name) || renderer.frameCount(name) < state.mostFrames);
+        const images = sides.map((name): [ImageName, ImageSettings] => [name,
+            { ...state[name], samples, shadows, seed }])
+            .filter(isUnfinished);
+        if (state.reference && pacing.allowsReference(performance.now(), images.length === 0)) {
+            if (renderer.frameCount("reference") === 0)
+                this.referenceTechnique = pacing.isFast ? "projected_ltc" : "projected";
+            const reference: [ImageName, ImageSettings] = ["reference", { technique: this.referenceTechnique,
+                heuristic: "clamped_optimal", sampler: "sobol", samples: 1, shadows, seed: seed + 1 }];
+            if (isUnfinished(reference)) images.push(reference);
         }
-        return unfinished;
+        return images;
     }
 
     private addsUp(name: ImageName): boolean { return this.state.accumulates || name === "reference"; }
 
-    /// A program that has never drawn may be compiled only then: one in each frame, so that what is ready is seen
-    /// before.
-    private add(images: readonly [ImageName, ImageSettings][]): void {
-        const { state, renderer } = this;
+    /// Where camera rays pass the pixels in the next frame of an image: a function of its number, so that an image is
+    /// one of the state. Without adding up, edges would tremble.
+    private placeOf(name: ImageName): Place {
+        if (!this.state.accumulates || !this.state.smoothsEdges) return [0.5, 0.5];
+        const number = this.renderer.frameCount(name) + 1;
+        return [halton(number, 2), halton(number, 3)];
+    }
+
+    /// Draws the images whose programs are ready. One in each frame may draw for the first time, which may compile it,
+    /// so that what is warm is seen before.
+    private add(images: readonly [ImageName, ImageSettings][]): FrameWork {
+        const { renderer, pacing } = this;
+        let count = 0;
+        let compiles = false;
         for (const [name, settings] of images) {
-            const key = [settings.technique, settings.sampler, state.scene, state.thickTubes].join();
-            if (!this.warm.has(key)) {
-                if (this.isCompiling || !renderer.isReady(settings)) continue;
-                this.isCompiling = true;
-                this.steadyFrames = 0;
-                this.warm.add(key);
-            }
+            const program = renderer.stateOf(settings);
+            const isFirst = program === "ready";
+            if (!isFirst && program !== "warm" || isFirst && (compiles || pacing.isCompiling)) continue;
+            compiles ||= isFirst;
             if (!this.addsUp(name)) renderer.clear([name]);
-            renderer.add(name, this.addsUp(name) ? settings : { ...settings, seed: 2 + this.frame });
-            this.isDirty = true;
+            const seed = this.addsUp(name) ? settings.seed
+                : settings.seed + 2 + this.singleFrames++ % (seedsOfState - 2);
+            if (renderer.add(name, { ...settings, seed }, this.placeOf(name))) ++count;
+            else this.showFailures();
         }
+        return { images: count, compiles };
     }
 
     private draw(): void {
-        const { state, renderer } = this;
-        const images = this.wanted();
-        if (images.length === 0 && !this.isDirty) return;
-        // Without adding up, edges would tremble.
-        renderer.look(state.accumulates && state.smoothsEdges ? [halton(this.frame + 1, 2), halton(this.frame + 1, 3)] : [0.5, 0.5]);
-        this.add(images);
-        if (images.length > 0) ++this.frame;
-        if (this.isDirty) {
-            const hasLeft = renderer.frameCount("left") > 0;
-            const hasRight = state.compares && renderer.frameCount("right") > 0;
-            const wipe = hasLeft && hasRight ? state.wipe : hasRight ? 0 : 1;
-            renderer.display({ wipe, exposure: state.exposure, showsError: state.shows === "error" && renderer.frameCount("reference") > 0 });
-            this.isDirty = false;
-        }
-        if (this.isCompiling) this.showNumbers();
-        ++this.framesInFlight;
-        void renderer.completion().then(() => this.finishFrame(images.length > 0));
+        const { state, renderer, pacing } = this;
+        const work = this.add(this.imagesToDraw());
+        if (work.images > 0) this.isDirty = true;
+        if (!this.isDirty && !work.compiles) return;
+        if (this.isDirty) this.display();
+        pacing.begin(work);
+        if (work.compiles) this.showNumbers();
+        void renderer.completion().then(() => this.attempt(() => {
+            if (pacing.end(performance.now(), work, state.width === 0)) this.update(this.state);
+            this.finishFrame(work);
+        }));
     }
 
-    /// \param isTimed whether it added to an image
-    private finishFrame(isTimed: boolean): void {
+    private display(): void {
         const { state, renderer } = this;
-        --this.framesInFlight;
-        this.isCompiling = false;
-        if (renderer.frameCount("left") > 0) document.documentElement.dataset.state = "ready";
+        const hasLeft = renderer.frameCount("left") > 0;
+        const hasRight = state.compares && renderer.frameCount("right") > 0;
+        renderer.display({
+            wipe: hasLeft && hasRight ? state.wipe : hasRight ? 0 : 1, exposure: state.exposure,
+            showsError: state.shows === "error" && renderer.frameCount("reference") > 0,
+        });
+        this.isDirty = false;
+    }
+
+    private finishFrame(work: FrameWork): void {
+        const { renderer, changes } = this;
+        if (this.isStopped) return;
+        const isShown = renderer.frameCount("left") > 0 || renderer.failureOf(this.state.left) !== null;
+        if (isShown) document.documentElement.dataset.state = "ready";
         const now = performance.now();
-        const interval = now - this.lastTime;
-        this.lastTime = now;
-        // Those before took part in compiling.
-        if (isTimed && ++this.steadyFrames > 3) this.frameTime = this.steadyFrames < 8 ? interval : 0.9 * this.frameTime + 0.1 * interval;
-        if (state.width === 0 && this.steadyFrames === 8 && this.automaticWidth === firstWidth) this.chooseWidth();
-        if (isTimed && now - this.lastErrors > errorInterval && renderer.frameCount("reference") > 0) {
+        if (work.images > 0 && now - this.lastErrors > errorInterval) {
             this.lastErrors = now;
-            void renderer.errors().then(errors => {
+            renderer.errors().then(errors => {
+                if (changes !== this.changes) return;
                 this.errors = errors;
-                this.isDirty = true;
-            });
+                this.showNumbers();
+            }).catch(error => this.stop(error));
         }
         this.showNumbers();
     }
 
     private showNumbers(): void {
-        const { state, renderer } = this;
+        const { state, renderer, pacing } = this;
+        const samplesOf = (name: ImageName) => state.samples * renderer.frameCount(name);
         this.numbers.show({
-            size: `${renderer.width} × ${renderer.height}`, isCompiling: this.isCompiling,
-            frameTime: this.steadyFrames > 3 ? this.frameTime : 0, leftSamples: state.samples * renderer.frameCount("left"), rightSamples: state.samples * renderer.frameCount("right"),
-            referenceSamples: renderer.frameCount("reference"), errors: state.reference ? this.errors : null,
-            compares: state.compares,
+            size: `${renderer.width} × ${renderer.height}`, isCompiling: pacing.isCompiling,
+                frameTime: pacing.frameTime,
+            leftSamples: samplesOf("left"), rightSamples: samplesOf("right"),
+                referenceSamples: renderer.frameCount("reference"),
+            errors: this.errors, compares: state.compares,
         });
-    }
-
-    private chooseWidth(): void {
-        const width = this.frameTime < fast.frameTime ? fast.width : this.frameTime > slow.frameTime ? slow.width : firstWidth;
-        if (width === this.automaticWidth) return;
-        this.automaticWidth = width;
-        this.update(this.state);
     }
 }
 
@@ -289,20 +313,31 @@ function help(): HTMLElement {
     const rows = [
         ["Drag, arrow keys", "turn the view; with Shift, or two fingers, move it"],
         ["Wheel, + and −, pinch", "zoom"],
-        ["Handles of the lights", "drag or arrow keys move them, with Shift they turn; Page Up and Page Down move them in depth"],
+        ["Handles of the lights",
+            "drag or arrow keys move them, with Shift they turn; Page Up and Page Down move them in depth"],
         ["Divider", "drag or arrow keys move it"],
-        ["Home", "puts the view or the light that has the focus back"],
+        ["Home", "puts back the view or the light that has the focus, and moves the divider to the left"],
     ];
     return element("details", { class: "keys" }, element("summary", {}, "Mouse, touch and keys"),
         element("dl", {}, ...rows.flatMap(([keys, effect]) => [element("dt", {}, keys), element("dd", {}, effect)])));
 }
 
-function fail(error: unknown): void {
+/// Shows what is wrong; an empty text takes it away.
+function showFailure(text: string): void {
     const node = document.getElementById("failure");
     if (node === null) return;
-    node.hidden = false;
-    node.textContent = error instanceof Error ? error.message : String(error);
+    node.hidden = text === "";
+    node.textContent = text;
+}
+
+function fail(error: unknown): void {
+    showFailure(error instanceof Error ? error.message : String(error));
     document.documentElement.dataset.state = "failed";
+}
+
+function restart(): void {
+    showFailure("");
+    document.documentElement.dataset.state = "loading";
 }
 
 declare global {

@@ -38,7 +38,8 @@ function setLamp(state: State, index: number, lamp: LampState): void {
 }
 
 /// Calls back for the movements of a pointer that is held down on a node, in parts of the width of the stage.
-function onDrag(node: HTMLElement, stage: HTMLElement, move: (dx: number, dy: number, event: PointerEvent) => void): void {
+function onDrag(node: HTMLElement, stage: HTMLElement, move: (dx: number, dy: number,
+    event: PointerEvent) => void): void {
     let last: { x: number; y: number } | null = null;
     node.addEventListener("pointerdown", event => {
         if (event.button !== 0) return;
@@ -76,15 +77,18 @@ export interface Stage {
 export function makeStage(actions: StageActions): Stage {
     const canvas = element("canvas", {
         id: "canvas", tabindex: 0, role: "application",
-        "aria-label": "The scene. Arrow keys turn the view, with Shift they move it; plus and minus zoom; Home resets it.",
+        "aria-label": "The scene. Arrow keys turn the view, with Shift they move it; plus and minus zoom; " +
+            "Home resets it.",
     });
     const divider = element("div", {
-        id: "divider", class: "divider", role: "slider", tabindex: 0, "aria-label": "Divider between the images", "aria-valuemin": 0,
+        id: "divider", class: "divider", role: "slider", tabindex: 0, "aria-label": "Divider between the images",
+            "aria-valuemin": 0,
         "aria-valuemax": 100,
     });
     const names = [element("span", { class: "name" }), element("span", { class: "name" })];
-    const handles = element("div", { class: "handles" });
-    const node = element("div", { class: "stage live" }, canvas, divider, handles, element("div", { class: "names" }, ...names));
+    const handles = element("div", { class: "handles", role: "group", "aria-label": "Lights" });
+    const node = element("div", { class: "stage live" }, canvas, divider, handles,
+        element("div", { class: "names" }, ...names));
     const camera = () => cameraOf(actions.view(), aspect);
     const setView = (change: (view: View) => View) => {
         const { eye, target } = change(actions.view());
@@ -121,9 +125,10 @@ export function makeStage(actions: StageActions): Stage {
     let lamps: readonly Lamp[] = [];
     const positionOf = (lamp: Lamp, index: number) => add(lamp.center, actions.state().lamps[index]?.move ?? [0, 0, 0]);
     const makeHandle = (lamp: Lamp, index: number): HTMLElement => {
-        const handle = element("button", {
-            type: "button", class: "handle", id: `handle-${index}`,
-            "aria-label": `${lamp.label}: arrow keys move it, Page Up and Page Down move it in depth, with Shift arrows turn it, Home resets it`,
+        const handle = element("div", {
+            role: "application", tabindex: 0, class: "handle", id: `handle-${index}`,
+            "aria-label": `${lamp.label} ${index + 1}: arrow keys move it, Page Up and Page Down move it in depth, ` +
+                "with Shift arrows turn it, Home resets it",
             title: `${lamp.label}: drag to move, with Shift to turn`,
         });
         onDrag(handle, node, (dx, dy, event) => {
@@ -139,8 +144,10 @@ export function makeStage(actions: StageActions): Stage {
             if (arrow === null && away === 0 && event.key !== "Home") return;
             actions.change(state => {
                 if (arrow === null && away === 0) setLamp(state, index, { ...untouchedLamp });
-                else if (arrow !== null && event.shiftKey) turnLamp(state, index, lampTurn * arrow[0], -lampTurn * arrow[1]);
-                else moveLamp(state, index, camera(), lampStep * (arrow?.[0] ?? 0), lampStep * (arrow?.[1] ?? 0), lampStep * away);
+                else if (arrow !== null && event.shiftKey) turnLamp(state, index, lampTurn * arrow[0],
+                    -lampTurn * arrow[1]);
+                else moveLamp(state, index, camera(), lampStep * (arrow?.[0] ?? 0), lampStep * (arrow?.[1] ?? 0),
+                    lampStep * away);
             });
             event.preventDefault();
         });
@@ -156,16 +163,18 @@ export function makeStage(actions: StageActions): Stage {
         show(state, labels) {
             divider.hidden = !state.compares;
             divider.style.left = `${100 * state.wipe}%`;
-            divider.setAttribute("aria-valuenow", String(Math.round(100 * state.wipe)));
+            const percent = Math.round(100 * state.wipe);
+            divider.setAttribute("aria-valuenow", String(percent));
+            divider.setAttribute("aria-valuetext", `${percent} % of the left image`);
             names.forEach((name, i) => { name.textContent = labels[i]; });
             names[1].hidden = !state.compares;
             lamps.forEach((lamp, i) => {
-                const at = project(camera(), positionOf(lamp, i));
+                // Lights outside of the image have their handle at the border, where it brings them back.
+                const [x, y] = project(camera(), positionOf(lamp, i)) ?? [0.5, 1];
+                const inside = (at: number) => `${100 * Math.min(Math.max(at, 0.02), 0.98)}%`;
                 const handle = handles.children[i] as HTMLElement;
-                handle.hidden = at === null || Math.min(...at) < 0 || Math.max(...at) > 1;
-                if (at === null) return;
-                handle.style.left = `${100 * at[0]}%`;
-                handle.style.top = `${100 * at[1]}%`;
+                handle.style.left = inside(x);
+                handle.style.top = inside(y);
             });
         },
     };
@@ -188,7 +197,8 @@ function listenToCanvas(canvas: HTMLElement, node: HTMLElement, setView: (change
         const dx = (now.x - before.x) / node.clientWidth;
         const dy = (now.y - before.y) / node.clientWidth;
         const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
-        const move = (share: number) => setView(view => pan(view, camera(), -share * width() * dx, share * width() * dy));
+        const move = (share: number) => setView(view => pan(view, camera(), -share * width() * dx,
+            share * width() * dy));
         if (other !== undefined) {
             const distance = (p: { x: number; y: number }) => Math.max(1, Math.hypot(p.x - other.x, p.y - other.y));
             setView(view => zoom(view, distance(now) / distance(before)));

@@ -35,8 +35,10 @@ export interface State {
     accumulates: boolean;
     /// Whether rays pass pixels in other places in each frame that adds up, else through their centres.
     smoothsEdges: boolean;
-    /// How many add up at most. Images are then functions of the state; only links change it.
+    /// How many add up at most. An image of so many frames is a function of the state; only links change it.
     mostFrames: number;
+    /// Of the random numbers; only links change it.
+    seed: number;
     shadows: boolean;
     /// Whether tubes of scenes that are cylinders remain so; else, they are lines, whose programs compile much faster.
     thickTubes: boolean;
@@ -63,26 +65,38 @@ export function initialState(): State {
         scene: "floor",
         left: { technique: "area", heuristic: "clamped_optimal", sampler: "sobol" },
         right: { technique: "projected", heuristic: "clamped_optimal", sampler: "sobol" },
-        compares: true, wipe: 0.5, samples: 1, accumulates: true, smoothsEdges: true, mostFrames: 4096, shadows: true, thickTubes: false, reference: true, shows: "image",
+        compares: true, wipe: 0.5, samples: 1, accumulates: true, smoothsEdges: true, mostFrames: 4096, seed: 0,
+        shadows: true, thickTubes: false, reference: true, shows: "image",
         roughness: null, exposure: 0, width: 0, camera: null, lamps: [],
     };
 }
 
+const mostLamps = 8;
+
+/// What both controls and links can reach. Exposure and brightness are slid in stops.
+export const limits = {
+    exposure: { min: -4, max: 4 },
+    roughness: { min: 0, max: 1 },
+    samples: { min: 0, max: 4 }, ///< as powers of two
+    brightness: { min: -6, max: 3 },
+} as const;
+
 const shortNumber = (x: number): string => String(Number(x.toFixed(4)));
 const numbersOf = (text: string): number[] => text.split(",").map(Number);
-const isVector = (v: number[]): boolean => v.length === 3 && v.every(Number.isFinite);
 
 function clamp(x: number, low: number, high: number): number {
     return Math.min(Math.max(x, low), high);
 }
 
-/// Reads and writes one part of the state. Texts that do not fit are ignored.
+/// Reads and writes one part of the state. Texts that do not fit are ignored; the page itself checks cameras, which
+/// depend on the scene.
 interface Field {
     write(state: State): string;
     read(state: State, text: string): void;
 }
 
-function choice<T extends string>(options: readonly T[], get: (state: State) => T, set: (state: State, value: T) => void): Field {
+function choice<T extends string>(options: readonly T[], get: (state: State) => T,
+    set: (state: State, value: T) => void): Field {
     return {
         write: get,
         read(state, text) {
@@ -92,7 +106,8 @@ function choice<T extends string>(options: readonly T[], get: (state: State) => 
     };
 }
 
-function number(low: number, high: number, get: (state: State) => number, set: (state: State, value: number) => void): Field {
+function number(low: number, high: number, get: (state: State) => number,
+    set: (state: State, value: number) => void): Field {
     return {
         write: state => shortNumber(get(state)),
         read(state, text) {
@@ -108,14 +123,14 @@ function flag(get: (state: State) => boolean, set: (state: State, value: boolean
 
 const names = (rows: readonly { name: string }[]): string[] => rows.map(row => row.name);
 
-function sideFields(side: "left" | "right"): Record<string, Field> {
+function sideFields(side: "left" | "right"): [string, Field][] {
     const field = (key: keyof Side, options: string[]) =>
         choice(options, state => state[side][key], (state, value) => { state[side][key] = value; });
-    return {
-        [side]: field("technique", names(techniques)),
-        [`${side}-heuristic`]: field("heuristic", names(heuristics)),
-        [`${side}-sampler`]: field("sampler", names(samplers)),
-    };
+    return [
+        [side, field("technique", names(techniques))],
+        [`${side}-heuristic`, field("heuristic", names(heuristics))],
+        [`${side}-sampler`, field("sampler", names(samplers))],
+    ];
 }
 
 function lampText(lamp: LampState): string {
@@ -127,64 +142,82 @@ function lampOf(text: string): LampState {
     const values = [x, y, z, turn, tilt, brightness];
     if (others.length > 0 || !values.every(Number.isFinite)) return { ...untouchedLamp };
     const near = (v: number) => clamp(v, -100, 100);
-    return { move: [near(x), near(y), near(z)], turn, tilt, brightness: clamp(brightness, 0, 16) };
+    return { move: [near(x), near(y), near(z)], turn, tilt, brightness: clamp(brightness, 0,
+        2 ** limits.brightness.max) };
 }
 
-const fields: Record<string, Field> = {
-    scene: choice(names(scenes), state => state.scene, (state, value) => { state.scene = value; }),
+function cameraOf(text: string): State["camera"] {
+    const values = numbersOf(text);
+    if (values.length !== 6 || !values.every(Number.isFinite)) return null;
+    const [a, b, c, d, e, f] = values;
+    return { eye: [a, b, c], target: [d, e, f] };
+}
+
+/// By names in links, which are no members of Object.prototype here.
+const fields = new Map<string, Field>([
+    ["scene", choice(names(scenes), state => state.scene, (state, value) => { state.scene = value; })],
     ...sideFields("left"),
     ...sideFields("right"),
-    compare: flag(state => state.compares, (state, value) => { state.compares = value; }),
-    wipe: number(0, 1, state => state.wipe, (state, value) => { state.wipe = value; }),
-    samples: number(1, 16, state => state.samples, (state, value) => { state.samples = Math.round(value); }),
-    accumulate: flag(state => state.accumulates, (state, value) => { state.accumulates = value; }),
-    smooth: flag(state => state.smoothsEdges, (state, value) => { state.smoothsEdges = value; }),
-    frames: number(1, 65536, state => state.mostFrames, (state, value) => { state.mostFrames = Math.round(value); }),
-    shadows: flag(state => state.shadows, (state, value) => { state.shadows = value; }),
-    thick: flag(state => state.thickTubes, (state, value) => { state.thickTubes = value; }),
-    reference: flag(state => state.reference, (state, value) => { state.reference = value; }),
-    show: choice(["image", "error"] as const, state => state.shows, (state, value) => { state.shows = value; }),
-    roughness: {
+    ["compare", flag(state => state.compares, (state, value) => { state.compares = value; })],
+    ["wipe", number(0, 1, state => state.wipe, (state, value) => { state.wipe = value; })],
+    ["samples", number(1, 2 ** limits.samples.max, state => state.samples,
+        (state, value) => { state.samples = 2 ** Math.round(Math.log2(value)); })],
+    ["accumulate", flag(state => state.accumulates, (state, value) => { state.accumulates = value; })],
+    ["smooth", flag(state => state.smoothsEdges, (state, value) => { state.smoothsEdges = value; })],
+    ["frames", number(1, 65536, state => state.mostFrames,
+        (state, value) => { state.mostFrames = Math.round(value); })],
+    ["seed", number(0, 32767, state => state.seed, (state, value) => { state.seed = Math.round(value); })],
+    ["shadows", flag(state => state.shadows, (state, value) => { state.shadows = value; })],
+    ["thick", flag(state => state.thickTubes, (state, value) => { state.thickTubes = value; })],
+    ["reference", flag(state => state.reference, (state, value) => { state.reference = value; })],
+    ["show", choice(["image", "error"] as const, state => state.shows, (state, value) => { state.shows = value; })],
+    ["roughness", {
         write: state => state.roughness === null ? "" : shortNumber(state.roughness),
         read: (state, text) => {
-            if (text !== "" && Number.isFinite(Number(text))) state.roughness = clamp(Number(text), 0, 1);
+            const { min, max } = limits.roughness;
+            if (text !== "" && Number.isFinite(Number(text))) state.roughness = clamp(Number(text), min, max);
         },
-    },
-    exposure: number(-8, 8, state => state.exposure, (state, value) => { state.exposure = value; }),
-    width: {
+    }],
+    ["exposure", number(limits.exposure.min, limits.exposure.max, state => state.exposure,
+        (state, value) => { state.exposure = value; })],
+    ["width", {
         write: state => String(state.width),
         read: (state, text) => { state.width = widths.find(width => String(width) === text) ?? 0; },
-    },
-    camera: {
+    }],
+    ["camera", {
         write: ({ camera }) => camera === null ? "" : [...camera.eye, ...camera.target].map(shortNumber).join(","),
-        read: (state, text) => {
-            const values = numbersOf(text).map(x => clamp(x, -1000, 1000));
-            const [eye, target] = [values.slice(0, 3), values.slice(3)];
-            if (!isVector(eye) || !isVector(target) || eye.join() === target.join()) return;
-            state.camera = { eye: [eye[0], eye[1], eye[2]], target: [target[0], target[1], target[2]] };
-        },
-    },
-    lamps: {
+        read: (state, text) => { state.camera = cameraOf(text); },
+    }],
+    ["lamps", {
         write: state => state.lamps.map(lampText).join(";"),
-        read: (state, text) => { state.lamps = text === "" ? [] : text.split(";").slice(0, 8).map(lampOf); },
-    },
-};
+        read: (state, text) => { state.lamps = text === "" ? [] : text.split(";").slice(0, mostLamps).map(lampOf); },
+    }],
+]);
 
 /// The part of a link after "#": what differs from the initial state.
 export function linkOf(state: State): string {
     const initial = initialState();
-    return Object.entries(fields)
+    return [...fields]
         .map(([name, field]) => [name, field.write(state), field.write(initial)] as const)
         .filter(([, text, standard]) => text !== standard)
         .map(([name, text]) => `${name}=${text}`)
         .join("&");
 }
 
+/// Some programs that send links escape commas and semicolons.
+function decoded(text: string): string {
+    try {
+        return decodeURIComponent(text);
+    } catch {
+        return ""; // not a text: fits no field
+    }
+}
+
 export function stateOf(link: string): State {
     const state = initialState();
-    for (const part of decodeURIComponent(link.replace(/^#/, "")).split("&")) {
+    for (const part of link.replace(/^#/, "").split("&")) {
         const at = part.indexOf("=");
-        if (at > 0) fields[part.slice(0, at)]?.read(state, part.slice(at + 1));
+        if (at > 0) fields.get(part.slice(0, at))?.read(state, decoded(part.slice(at + 1)));
     }
     return state;
 }

@@ -8,7 +8,8 @@ vec3 reflect_cylinder(Surface surface, Reflection reflection, int index) {
     Cylinder light = local_cylinder(surface, index);
     if (!is_lit(surface, light, cylinder_numbers[index])) return vec3(0.0);
     Ltc lobe = reflection.glossy.lobe;
-    float diffuse = tube_integral(diffuse_integral(light.axis), light.radius, diffuse_caps_integral(light.axis, light.radius));
+    float diffuse = tube_integral(diffuse_integral(light.axis), light.radius,
+                                  diffuse_caps_integral(light.axis, light.radius));
     float specular = tube_integral(clipped_lobe_integral(light.axis, lobe), light.radius,
                                    clipped_caps_integral(light.axis, light.radius, lobe));
     return cylinder_emission(index) *

@@ -5,13 +5,14 @@
 uniform highp sampler2D left_frames;
 uniform highp sampler2D right_frames;
 uniform highp sampler2D reference_frames;
+uniform float left_count, right_count, reference_count; ///< of frames
 uniform float wipe; ///< the left image ends at this x of gl_FragCoord
 uniform float exposure;
 uniform bool shows_error;
 
 out vec4 colour;
 
-vec3 mean_of(vec4 frames) { return frames.w > 0.0 ? frames.xyz / frames.w : vec3(0.0); }
+vec3 mean_of(vec4 frames, float count) { return count > 0.0 ? frames.xyz / count : vec3(0.0); }
 
 /// The transfer function of sRGB.
 vec3 to_srgb(vec3 linear) {
@@ -32,8 +33,9 @@ vec3 error_colour(vec3 value, vec3 reference) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec3 mean = gl_FragCoord.x < wipe ? mean_of(texelFetch(left_frames, pixel, 0)) : mean_of(texelFetch(right_frames, pixel, 0));
-    vec3 reference = mean_of(texelFetch(reference_frames, pixel, 0));
+    vec3 mean = gl_FragCoord.x < wipe ? mean_of(texelFetch(left_frames, pixel, 0), left_count)
+                                      : mean_of(texelFetch(right_frames, pixel, 0), right_count);
+    vec3 reference = mean_of(texelFetch(reference_frames, pixel, 0), reference_count);
     vec3 shown = shows_error ? error_colour(exposure * mean, exposure * reference) : to_srgb(exposure * mean);
     colour = vec4(shown, 1.0);
 }

@@ -3,10 +3,10 @@
 @includes@
 uniform highp sampler2D frames_before;
 
-out vec4 frames; ///< their sum, and their number
+out vec4 frames; ///< their sum, and how many samples were not finite
 
 vec3 reflected_light(Surface surface) {
-    Reflection reflection = reflection_of(surface, @uses_lobes@);
+    Reflection reflection = @reflection_of@(surface);
     vec3 reflected = vec3(0.0);
 @loops@    return reflected;
 }
@@ -20,5 +20,5 @@ void main() {
         radiance = emission_of(surface);
         if (surface.material.model != kNoSurface) radiance += reflected_light(surface);
     }
-    frames = texelFetch(frames_before, pixel, 0) + vec4(radiance, 1.0);
+    frames = texelFetch(frames_before, pixel, 0) + vec4(radiance, @rejected@);
 }

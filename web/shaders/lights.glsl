@@ -7,11 +7,12 @@
 #include "nusselt/geometry/cylinder.glsl"
 #include "surface.glsl"
 
-const int kMostLights = 4; ///< of each kind
+const int kMostLights = @most_lights@;     ///< of each kind
+const int kLightVertices = @light_vertices@; ///< of a polygonal light; programs may have room for more
 
 uniform int polygon_count;
-uniform vec3 polygon_vertices[kMostLights * NUSSELT_MAX_VERTICES]; ///< [m]
-uniform vec3 polygon_edges[kMostLights * NUSSELT_MAX_VERTICES];
+uniform vec3 polygon_vertices[kMostLights * kLightVertices]; ///< [m]
+uniform vec3 polygon_edges[kMostLights * kLightVertices];
 uniform vec3 polygon_normals[kMostLights];
 uniform vec3 polygon_radiances[kMostLights]; ///< [W/(sr m^2)]
 uniform int polygon_numbers[kMostLights];
@@ -33,15 +34,19 @@ ConvexPolygon local_polygon(Surface surface, int index) {
     vec3 vertices[NUSSELT_MAX_VERTICES];
     vec3 edges[NUSSELT_MAX_VERTICES];
     for (int j = 0; j < NUSSELT_MAX_VERTICES; ++j) {
-        vertices[j] = polygon_vertices[index * NUSSELT_MAX_VERTICES + j];
-        edges[j] = polygon_edges[index * NUSSELT_MAX_VERTICES + j];
+        // Further slots repeat the last vertex, and the last edge closes the polygon.
+        bool is_last = j == NUSSELT_MAX_VERTICES - 1;
+        bool is_further = j >= kLightVertices - 1 && !is_last;
+        vertices[j] = polygon_vertices[index * kLightVertices + min(j, kLightVertices - 1)];
+        edges[j] = is_further ? vec3(0.0) : polygon_edges[index * kLightVertices + (is_last ? kLightVertices - 1 : j)];
     }
     return to_shading_space(make_polygon(vertices, edges, polygon_normals[index]), surface.position, surface.shading);
 }
 
 LineSegment local_line(Surface surface, int index) {
     vec4 direction = line_directions[index];
-    return to_shading_space(LineSegment(line_begins[index], direction.xyz, direction.w), surface.position, surface.shading);
+    LineSegment world = LineSegment(line_begins[index], direction.xyz, direction.w);
+    return to_shading_space(world, surface.position, surface.shading);
 }
 
 Cylinder local_cylinder(Surface surface, int index) {

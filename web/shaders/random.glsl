@@ -14,8 +14,8 @@ uniform int sample_count; ///< per pixel and frame
 /// \param pair  number of the pair of random numbers.
 vec2 random_for_light(int index, int light, int pair) {
     ivec2 pixel = pixel_of_image();
-    return light_random(@sampler@, uint(seed), uint(pixel.x), uint(pixel.y), uint(first_sample + index), 1u, uint(light),
-                        uint(pair));
+    return light_random(@sampler@, uint(seed), uint(pixel.x), uint(pixel.y), uint(first_sample + index), 1u,
+                        uint(light), uint(pair));
 }
 
 #endif

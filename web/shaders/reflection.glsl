@@ -12,17 +12,28 @@ struct Reflection {
     GlossySurface glossy; ///< with a specular albedo of 0 where there is no lobe
 };
 
-/// \param uses_lobes whether the fit of the specular part is needed.
-Reflection reflection_of(Surface surface, bool uses_lobes) {
+/// \param fit of the specular part.
+Reflection reflection_with(Surface surface, SpecularFit fit) {
     Material material = surface.material;
     Reflection self;
     self.is_frostbite = material.model == kFrostbite;
     self.lambert = Lambert(material.diffuse);
-    SpecularFit fit = SpecularFit(ltc_prepare(LtcCoefficients(1.0, 0.0, 1.0, 0.0, 1.0, 0.0)), vec3(0.0));
-    if (uses_lobes && self.is_frostbite) fit = specular_fit(material.roughness, surface.cos_o, material.f0);
     self.glossy = make_glossy_surface(surface.cos_o, material.diffuse, material.f0, material.roughness, fit);
     if (!self.is_frostbite) self.glossy.diffuse_albedo = material.diffuse;
     return self;
+}
+
+SpecularFit no_fit() { return SpecularFit(ltc_prepare(LtcCoefficients(1.0, 0.0, 1.0, 0.0, 1.0, 0.0)), vec3(0.0)); }
+
+/// For techniques that use the BRDF only. Its lobe and albedos mean nothing.
+Reflection brdf_of(Surface surface) { return reflection_with(surface, no_fit()); }
+
+/// With the lobe of the specular part.
+Reflection brdf_and_lobe_of(Surface surface) {
+    SpecularFit fit = no_fit();
+    Material material = surface.material;
+    if (material.model == kFrostbite) fit = specular_fit(material.roughness, surface.cos_o, material.f0);
+    return reflection_with(surface, fit);
 }
 
 BrdfComponents reflection_eval_components(Reflection self, vec3 wi) {

@@ -7,9 +7,10 @@
 uniform highp sampler2D materials;
 
 // Values of Material::model.
-const float kLambert = 0.0;
-const float kFrostbite = 1.0;
-const float kNoSurface = 2.0; ///< visible because it emits, but reflects nothing and casts no shadow: a tube
+const float kLambert = @model_lambert@;
+const float kFrostbite = @model_frostbite@;
+/// Visible because it emits, but reflects nothing and casts no shadow: a tube.
+const float kNoSurface = @model_no_surface@;
 
 struct Material {
     float model;

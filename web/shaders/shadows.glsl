@@ -9,7 +9,7 @@
 uniform highp sampler2D nodes;
 uniform int node_count;
 
-const int kCountBits = 3;
+const int kCountBits = @count_bits@;
 /// Occluders count up to this fraction of the distance to the light.
 const float kShadowEnd = 0.9999;
 /// More than the rounding errors of the box test.

@@ -4,7 +4,7 @@
 
 #include "nusselt/core/vec.glsl"
 
-const int kRowBits = 10; ///< rows have 2^10 texels
+const int kRowBits = @row_bits@; ///< rows have 2^kRowBits texels
 
 uniform highp sampler2D triangles;
 

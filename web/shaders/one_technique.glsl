@@ -10,10 +10,10 @@ vec3 reflect_@kind@(Surface surface, Reflection reflection, int index) {
     @Technique@ technique = @prepare@(light);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < sample_count; ++i) {
-        vec2 u = random_for_light(i, number, 0);
-        LightSample s = @technique@_sample(technique, @u@);
+        LightSample s = @technique@_sample(technique, random_for_light(i, number, 0).@u@);
         vec3 shadowed = vec3(0.0);
-        if (s.pdf > 0.0 && s.wi.z > 0.0) {
+        // Comparisons with NaN are false: negated they keep it, so that it is counted.
+        if (!(s.pdf == 0.0 || s.wi.z <= 0.0)) {
             BrdfComponents brdf = reflection_eval_components(reflection, s.wi);
             shadowed = (s.wi.z / s.pdf) * (brdf.diffuse + brdf.specular);
         }
