@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Measures what the documentation shows and fills it in again: docs/data, the tables of all pages, and pictures.
-# Usage: scripts/update-docs.sh [tables|pictures|viewer|lines]
+# Usage: scripts/update-docs.sh [tables|pictures|viewer|lines|notebooks]
 #   tables    only fills the tables of pages from docs/data, which takes a second
 #   pictures  only the pictures of docs/techniques, which are the same on every machine
 #   viewer    only the picture of docs/viewer.md, which takes a Vulkan driver and xvfb-run
 #   lines     only the numbers and plots of docs/line-samples.md, which take half an hour and an idle machine;
 #             NUSSELT_SCENES must name the folder with sponza/
+#   notebooks only the pages of docs/notebooks, which take the Python module
 # Without an argument, pictures, accuracy and cost of the samplers. Other files of docs/data name the command that wrote
 # them; run it again with `--json docs/data/FILE` and then `scripts/update-docs.sh tables`.
 # NUSSELT names the program; default: build/release/apps/nusselt-lab/nusselt-lab
@@ -62,6 +63,7 @@ tables) ;;
 pictures) draw_pictures ;;
 viewer) picture_viewer ;;
 lines) measure_lines ;;
+notebooks) PYTHONPATH=build/release/python /usr/bin/python3 python/notebooks/run.py docs/notebooks ;;
 '')
     draw_pictures
     "$program" bench accuracy --json docs/data/accuracy.json >/dev/null
@@ -69,7 +71,7 @@ lines) measure_lines ;;
     "$program" bench instructions --isa avx2 --json docs/data/instructions.json >/dev/null
     ;;
 *)
-    sed -n '3,11s/^# //p' "$0" >&2
+    sed -n '3,12s/^# //p' "$0" >&2
     exit 2
     ;;
 esac

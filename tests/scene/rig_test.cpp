@@ -75,6 +75,18 @@ protected:
     }
 };
 
+TEST_F(RigTest, TextsAreReadAsFilesAre) {
+    const std::string text = R"({"version": 1, "lights": [{"light": 3, "power": 2}]})";
+    write("rig.json", text);
+    const Rig read = read_rig(folder_ / "rig.json");
+    const Rig parsed = parse_rig(text, folder_ / "text");
+    ASSERT_EQ(parsed.lights.size(), 1u);
+    EXPECT_EQ(std::get<Selector>(parsed.lights[0].lights), std::get<Selector>(read.lights[0].lights));
+    EXPECT_EQ(parsed.lights[0].changes.power, read.lights[0].changes.power);
+    EXPECT_EQ(without_folder(parsed.lights[0].where), "text: lights[0]");
+    EXPECT_THROW(parse_rig(text.substr(1), "text"), std::runtime_error);
+}
+
 TEST_F(RigTest, PatternsMatch) {
     for (const auto& [text, pattern] : {std::pair("lamp 12", "lamp 12"),
                                         {"lamp 12", "*"},
