@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
          "`nusselt COMMAND --help` explains a command.\n"
          "Exit codes: 0 success, 1 error, 2 wrong usage, 3 broken limit of compare; 130 stopped by Ctrl-C,\n"
          "143 by SIGTERM, 129 by SIGHUP, 152 by SIGXCPU, 138 by SIGUSR1.",
-         {setup_render, setup_view, setup_submit, setup_merge, setup_info, setup_lights, setup_camera, setup_techniques,
-          setup_compare, setup_convert}},
+         {setup_render, setup_view, setup_submit, setup_merge, setup_info, setup_lights, setup_camera,
+          setup_techniques, setup_compare, setup_convert}},
         argc, argv);
 }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Simulates a film on many cores: tasks with checkpoints, failures of cores, stragglers, shared storage and merges. docs/scaling.md
-has the results. `farm.py` prints its table; `farm.py --help` lists what can be changed.
+"""Simulates a film on many cores: tasks with checkpoints, failures of cores, stragglers, shared storage and merges.
+docs/scaling.md has the results. `farm.py` prints its table; `farm.py --help` lists what can be changed.
 
-Events are exact within the model. A core fails at random, with the same rate at any time. A failure ends the task of the core,
-which goes on where its last checkpoint ends once the engine has waited and a slot is free. Storage serves requests one after the
-other at its full bandwidth. Merging is a task of one core per frame, and begins when all parts of the frame are there."""
+A core fails at random, with the same rate at any time. A failure ends the task of the core, which goes on where its
+last checkpoint ends once the engine has waited and a slot is free. Storage serves requests one after the other at its
+full bandwidth. Merging is a task of one core per frame, and begins when all parts of the frame are there."""
 
 import argparse
 import dataclasses
@@ -34,7 +34,7 @@ class Farm:
     frame_bytes: float = 7680 * 4320 * 12
     scene_bytes: float = 0.2e9  # read by each task that starts
     storage: float = 100e9  # [bytes/s]
-    merge_rate: float = 400e6  # [bytes/s] of the frame
+    merge_rate: float = 120e6  # [bytes/s] of the frame
 
 
 @dataclasses.dataclass
@@ -65,7 +65,8 @@ class Storage:
 
 
 def stretch_until_failure(work, farm, rate, rng):
-    """One attempt at `work` seconds of rendering. \\returns wall seconds, seconds of rendering that are kept, whether it failed"""
+    """One attempt at `work` seconds of rendering. \\returns wall seconds, seconds of rendering that are kept, whether it
+    failed"""
     pieces = max(1, math.ceil(work / farm.checkpoint_interval - 1e-9))
     # The last piece ends with the image instead of a checkpoint.
     whole = work + (pieces - 1) * farm.checkpoint_cost
@@ -77,7 +78,8 @@ def stretch_until_failure(work, farm, rate, rng):
 
 
 def simulate(farm, seed=1, stretch=stretch_until_failure, factor=None):
-    """\\param factor  gives the time of a task relative to the mean, from a random generator; otherwise log-normal with mean 1"""
+    """\\param factor  gives the time of a task relative to the mean, from a random generator; otherwise it is
+    log-normal with mean 1"""
     rng = random.Random(seed)
     if factor is None:
         shift = -farm.straggling**2 / 2
@@ -87,8 +89,8 @@ def simulate(farm, seed=1, stretch=stretch_until_failure, factor=None):
     mean = farm.frame_work / farm.parts / farm.threads
     storage, outcome = Storage(farm.storage), Outcome()
     missing = [farm.parts] * farm.frames
-    # What may start: (time from which on, kind, frame, seconds of rendering left). Merges come before new frames, so that frames
-    # do not pile up; requeued tasks wait.
+    # What may start: (time from which on, kind, frame, seconds of rendering left). Merges come before new frames, so
+    # that frames do not pile up; requeued tasks wait.
     render, merge = 0, 1
     ready = [(0.0, i // farm.parts, render, mean * factor(rng)) for i in range(farm.frames * farm.parts)]
     heapq.heapify(ready)
@@ -150,10 +152,10 @@ def simulate(farm, seed=1, stretch=stretch_until_failure, factor=None):
 
 
 def expected_task_seconds(work, farm, rate):
-    """The mean wall time of `work` seconds with a checkpoint after each interval, failures at a rate and a wait after each, if a
-    slot is always free: for each interval of length t, (1 / rate + wait) (exp(rate t) - 1). That is the classical result for
-    restarts (J. T. Daly 2006, A higher order estimate of the optimum checkpoint interval for restart dumps), with a wait
-    during which nothing fails."""
+    """The mean wall time of `work` seconds with a checkpoint after each interval, failures at a rate and a wait after
+    each, if a slot is always free: for each interval of length t, (1 / rate + wait) (exp(rate t) - 1). That is the
+    classical result for restarts (J. T. Daly 2006, A higher order estimate of the optimum checkpoint interval for
+    restart dumps), with a wait during which nothing fails."""
     pieces = work / farm.checkpoint_interval
     step = farm.checkpoint_interval + farm.checkpoint_cost
     return pieces * (1 / rate + farm.requeue_delay) * math.expm1(rate * step)

@@ -81,11 +81,14 @@ std::size_t PackedTiles::chosen_count() const {
 }
 
 Window PackedTiles::window() const {
-    // About square, so that the mosaic is easy to look at, and with less than one row of empty cells.
+    // The fewest empty cells among shapes that are not too far from a square, so that the mosaic is easy to look at.
     const std::size_t count = std::max<std::size_t>(chosen_count(), 1); // files are never empty
-    const auto rows = std::size_t(std::sqrt(double(count)));
-    const std::size_t columns = (count + rows - 1) / rows;
-    return {0, 0, int(columns) * size_, int((count + columns - 1) / columns) * size_};
+    const auto most = std::size_t(std::sqrt(double(count)));
+    const auto columns_for = [&](std::size_t rows) { return (count + rows - 1) / rows; };
+    std::size_t best = most;
+    for (std::size_t rows = most; rows >= 1 && rows >= most / 2; --rows)
+        if (rows * columns_for(rows) < best * columns_for(best)) best = rows;
+    return {0, 0, int(columns_for(best)) * size_, int(best) * size_};
 }
 
 std::vector<PixelRun> PackedTiles::runs() const {

@@ -1,13 +1,14 @@
 #pragma once
 /// Images of which a file holds some tiles only: these tiles lie side by side, in rows of cells of one size.
 ///
-/// Such a file is an ordinary EXR file, which any program opens: it shows the tiles as a mosaic. Metadata under kTilesKey say
-/// where each belongs. Two other forms were considered. EXR files whose table lacks tiles are damaged to most programs.
-/// Files of the whole image whose black pixels are compressed look right everywhere, but whoever merges n parts then decodes n
-/// images; that time grows with the square of the number of parts for a given amount of work.
+/// Such a file is an ordinary EXR file, which any program opens: it shows the tiles as a mosaic. Metadata under
+/// kTilesKey say where each belongs. Two other forms were considered. EXR files whose table lacks tiles are damaged
+/// to most programs. Files of the whole image whose black pixels are compressed look right everywhere, but whoever
+/// merges n parts then decodes n images; that time grows with the square of the number of parts for a given amount of
+/// work.
 ///
-/// read_image(), read_layers(), read_layer() and read_layer_list() of such a file give the whole image, black where no tile
-/// is. Only who merges parts reads them as they are.
+/// read_image(), read_layers(), read_layer() and read_layer_list() of such a file give the whole image, black where
+/// no tile is. Only who merges parts reads them as they are.
 
 #include "image/layers.h"
 
@@ -19,8 +20,8 @@
 
 namespace nusselt::image {
 
-/// The key of the metadata that say which tiles a file holds: x, y, width and height of the whole image, the size of tiles
-/// and, in hexadecimal digits of four tiles each, which tiles are there, row by row.
+/// The key of the metadata that say which tiles a file holds: x, y, width and height of the whole image, the size of
+/// tiles and, in hexadecimal digits of four tiles each, which tiles are there, row by row.
 inline constexpr const char* kTilesKey = "tiles";
 
 /// Pixels in one row of both images, counted row by row.
@@ -46,7 +47,7 @@ public:
 
     [[nodiscard]] std::string text() const;
     [[nodiscard]] const Window& whole() const { return whole_; }
-    /// The pixels of the file: all cells, the last of which may be empty; one of them without any tile.
+    /// The pixels of the file: all cells, of which the last ones may be empty; one of them without any tile.
     [[nodiscard]] Window window() const;
     /// Pixels that are there, each once.
     [[nodiscard]] std::vector<PixelRun> runs() const;

@@ -3,7 +3,7 @@
 #include "image/packed_tiles.h"
 #include "render/film.h"
 #include "render/memory.h"
-#include "render/part_file.h"
+#include "render/metadata.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "base/words.h"
 #include "image/packed_tiles.h"
-#include "render/part_file.h"
+#include "render/metadata.h"
 
 #include <algorithm>
 #include <charconv>

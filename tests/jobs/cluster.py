@@ -1,5 +1,5 @@
-"""A Slurm cluster of two nodes on this machine, for tests: its own configuration, folder and ports, nothing beyond the loopback
-address, no root, and no system service. Every process is ended by its id."""
+"""A Slurm cluster of two nodes on this machine, for tests: its own configuration, folder and ports, nothing beyond the
+loopback address, and no system service. Every process is ended by its id."""
 
 import os
 import pathlib
@@ -112,15 +112,15 @@ class Cluster:
 
     def start(self, name, *command):
         with open(self.folder / f"{name}.out", "ab") as log:
-            self.daemons[name] = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                                  start_new_session=True)
+            self.daemons[name] = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log,
+                                                  stderr=log, start_new_session=True)
 
     def start_controller(self, *options):
         self.start("slurmctld", "slurmctld", "-D", *options)
 
     def end(self, name):
-        """Ends a daemon in order. A controller that crashes also forgets the last seconds, and learns from nodes what became of
-        their tasks only after minutes."""
+        """Ends a daemon in order. A controller that crashes also forgets the last seconds, and learns from nodes what
+        became of their tasks only after minutes."""
         daemon = self.daemons.pop(name)
         daemon.terminate()
         daemon.wait(30)

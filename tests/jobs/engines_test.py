@@ -25,11 +25,12 @@ class EnginesTest(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
 
     def run_in(self, *command, **options):
-        return subprocess.run([str(word) for word in command], cwd=self.folder, capture_output=True, text=True, **options)
+        words = [str(word) for word in command]
+        return subprocess.run(words, cwd=self.folder, capture_output=True, text=True, **options)
 
     def submit(self, *words, parts=4, engine="parallel", options=OPTIONS):
-        return self.run_in(NUSSELT, "submit", SCENE, "--parts", parts, "--engine", engine, "-o", "image.exr", *words, "--",
-                           *options)
+        return self.run_in(NUSSELT, "submit", SCENE, "--parts", parts, "--engine", engine, "-o", "image.exr", *words,
+                           "--", *options)
 
     def expect_success(self, outcome):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
@@ -63,8 +64,8 @@ class EnginesTest(unittest.TestCase):
     def test_the_same_command_continues(self):
         """After Ctrl-C, only what is missing is done, from the checkpoints on."""
         options = ["--resolution", "640x360", "--spp", "32", "--checkpoint-interval", "0.1"]
-        process = subprocess.Popen([NUSSELT, "submit", SCENE, "--parts", "3", "--engine", "parallel", "-o", "image.exr", "--run",
-                                    "--", *options], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        command = [NUSSELT, "submit", SCENE, "--parts", "3", "--engine", "parallel", "-o", "image.exr", "--run", "--"]
+        process = subprocess.Popen([*command, *options], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60
         while not list(self.folder.glob("image.job/checkpoints/*")) and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -74,7 +75,7 @@ class EnginesTest(unittest.TestCase):
         self.assertIn("stopped; run the same command again to continue", err)
         self.assertFalse((self.folder / "image.exr").exists())
         self.expect_success(self.submit("--run", parts=3, options=options))
-        self.expect_success(self.run_in(NUSSELT, "render", SCENE, *options, "-q", "-o", "whole.exr"))
+        self.expect_success(self.run_in(NUSSELT, "render", SCENE, *options[:4], "-q", "-o", "whole.exr"))
         self.expect_same("image.exr", "whole.exr")
 
     def test_templates_are_printed(self):
@@ -97,8 +98,9 @@ class EnginesTest(unittest.TestCase):
     def test_mistakes_are_found_before_the_job_is_written(self):
         for words, options, code, text in (
                 ((), ["--bad", "3"], 2, "unknown '--bad'"), ((), ["-o", "b.exr"], 2, "use the option -o of submit"),
-                ((), ["--part", "1/2"], 2, "--parts"), ((), ["--spp", "x"], 2, "--spp"), ((), ["--threads", "2"], 2, "--threads"),
-                ((), ["--backend", "vulkan"], 2, "--backend"), (("--engine", "lsf"), [], 2, "--engine"),
+                ((), ["--part", "1/2"], 2, "--parts"), ((), ["--spp", "x"], 2, "--spp"),
+                ((), ["--threads", "2"], 2, "--threads"), ((), ["--backend", "vulkan"], 2, "--backend"),
+                (("--engine", "lsf"), [], 2, "--engine"),
                 (("--run", "--engine", "print"), [], 2, "--engine")):
             outcome = self.submit(*words, options=options)
             self.assertEqual(outcome.returncode, code, options)
@@ -122,26 +124,24 @@ class EnginesTest(unittest.TestCase):
 
     def test_a_task_that_fails_for_good_is_named_with_its_reason(self):
         shutil.copy(SCENE, self.folder / "scene.pbrt")
-        outcome = self.run_in(NUSSELT, "submit", "scene.pbrt", "--parts", 2, "--engine", "parallel", "-o", "image.exr", "--",
-                              *OPTIONS)
-        self.expect_success(outcome)
+        submit = [NUSSELT, "submit", "scene.pbrt", "--parts", 2, "--engine", "parallel", "-o", "image.exr"]
+        self.expect_success(self.run_in(*submit, "--", *OPTIONS))
         (self.folder / "scene.pbrt").write_text("WorldBegin\nShape \"sphere\n")
-        outcome = self.run_in(NUSSELT, "submit", "scene.pbrt", "--parts", 2, "--engine", "parallel", "-o", "image.exr", "--run",
-                              "--", *OPTIONS)
+        outcome = self.run_in(*submit, "--run", "--", *OPTIONS)
         self.assertEqual(outcome.returncode, 1)
         self.assertIn("2 of 2 tasks left no result: 1 2 (the first one: nusselt: error: ", outcome.stderr)
         self.assertFalse((self.folder / "image.exr").exists())
 
     def test_sweeps_of_images(self):
-        outcome = self.run_in(LAB, "submit", "images", "--scene", SCENE, "--technique", "area", "--technique", "solid_angle",
-                              "--seeds", 2, "--engine", "parallel", "--run", "-o", "sweep", "--", *OPTIONS)
+        outcome = self.run_in(LAB, "submit", "images", "--scene", SCENE, "--technique", "area", "--technique",
+                              "solid_angle", "--seeds", 2, "--engine", "parallel", "--run", "-o", "sweep", "--", *OPTIONS)
         self.expect_success(outcome)
         for technique in ("area", "solid_angle"):
             self.assertTrue((self.folder / f"sweep/room-{technique}.exr").exists())
 
     def test_shards_of_the_fuzzer_are_one_run(self):
-        outcome = self.run_in(LAB, "submit", "fuzz", "--shards", 3, "--count", 1000, "--engine", "parallel", "--run", "-o",
-                              "fuzz.json", "--", "--technique", "LineSolidAngle")
+        outcome = self.run_in(LAB, "submit", "fuzz", "--shards", 3, "--count", 1000, "--engine", "parallel", "--run",
+                              "-o", "fuzz.json", "--", "--technique", "LineSolidAngle")
         self.expect_success(outcome)
         manifest = json.loads((self.folder / "fuzz.job/manifest.json").read_text())
         pieces = [task["command"][2] for task in manifest["tasks"]]
@@ -165,8 +165,8 @@ class EnginesTest(unittest.TestCase):
         self.assertIn("2.json", outcome.stderr)
 
     def test_shards_of_the_worst_case_have_seeds_of_their_own(self):
-        outcome = self.run_in(LAB, "submit", "worst-case", "--shards", 2, "--starts", 8, "--seed", 5, "--engine", "parallel",
-                              "--run", "-o", "worst.json", "--", "--target", "lines")
+        outcome = self.run_in(LAB, "submit", "worst-case", "--shards", 2, "--starts", 8, "--seed", 5, "--engine",
+                              "parallel", "--run", "-o", "worst.json", "--", "--target", "lines")
         self.expect_success(outcome)
         results = json.loads((self.folder / "worst.json").read_text())
         self.assertEqual([row[0] for row in results["tables"][0]["rows"]], [1, 2])

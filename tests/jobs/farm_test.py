@@ -9,13 +9,14 @@ import statistics
 import sys
 import unittest
 
+sys.dont_write_bytecode = True  # nothing new in the folders of the sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "lab/scaling"))
 import farm
 
 # Nothing but rendering.
-PLAIN = farm.Farm(cores=64, frames=10, parts=8, threads=4, frame_work=3200.0, straggling=0.0, start=0.0, failures_per_core=0.0,
-                  checkpoint_interval=10.0, checkpoint_cost=0.0, requeue_delay=0.0, frame_bytes=0.0, scene_bytes=0.0,
-                  storage=1e12, merge_rate=1e12)
+PLAIN = farm.Farm(cores=64, frames=10, parts=8, threads=4, frame_work=3200.0, straggling=0.0, start=0.0,
+                  failures_per_core=0.0, checkpoint_interval=10.0, checkpoint_cost=0.0, requeue_delay=0.0,
+                  frame_bytes=0.0, scene_bytes=0.0, storage=1e12, merge_rate=1e12)
 
 
 def forgets_lost_work(work, settings, rate, rng):
@@ -26,8 +27,8 @@ def forgets_lost_work(work, settings, rate, rng):
 
 def task_times(stretch, count):
     """Wall times of single tasks with many failures, and the settings."""
-    settings = dataclasses.replace(PLAIN, cores=4, frames=1, parts=1, frame_work=400.0, checkpoint_cost=1.0, requeue_delay=7.0,
-                                   failures_per_core=1 / 200)
+    settings = dataclasses.replace(PLAIN, cores=4, frames=1, parts=1, frame_work=400.0, checkpoint_cost=1.0,
+                                   requeue_delay=7.0, failures_per_core=1 / 200)
     return [farm.simulate(settings, seed, stretch).makespan for seed in range(count)], settings
 
 

@@ -20,9 +20,9 @@ struct Engine {
     std::string_view name;
     /// For the help: what it is.
     std::string_view description;
-    /// What it needs beside the files of all jobs. Engines that can be started from here have `start.sh`, which returns when
-    /// the engine has the job or has done it, and `alive.sh`, which ends with 0 while the engine has the job, 1 when
-    /// it does not, and 2 if nobody can tell.
+    /// What it needs beside the files of all jobs. Engines that can be started from here have `start.sh`, which
+    /// returns when the engine has the job or has done it, and `alive.sh`, which ends with 0 while the engine has the
+    /// job, 1 when it does not, and 2 if nobody can tell.
     std::vector<JobFile> (*files)(const Job& job);
     /// The file to print, of engines that cannot be started from here; otherwise empty.
     std::string_view printed_file;

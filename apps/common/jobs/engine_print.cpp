@@ -4,12 +4,12 @@ namespace nusselt::app {
 
 namespace {
 
-/// A step that runs a script of the folder.
+/// A step that runs a script of the folder. Lists of arguments may not be empty.
 nlohmann::ordered_json step(const Job& job, const std::string& name, const std::string& script,
                             const Words& arguments) {
-    return {{"name", name},
-            {"script",
-             {{"actions", {{"onRun", {{"command", (job.folder / script).string()}, {"args", arguments}}}}}}}};
+    nlohmann::ordered_json run = {{"command", (job.folder / script).string()}};
+    if (!arguments.empty()) run["args"] = arguments;
+    return {{"name", name}, {"script", {{"actions", {{"onRun", run}}}}}};
 }
 
 /// A job template of the Open Job Description 2023-09, which AWS Deadline Cloud and others read.

@@ -10,8 +10,8 @@ namespace {
 /// The largest number of an array task that Slurm takes unless the site allows more (MaxArraySize is 1001).
 constexpr int kMaxArrayIndex = 1000;
 
-// The gathering step depends with `afterany`: after `afterok`, a single task that is killed would leave it in the queue for
-// good. It finds out for itself what is missing.
+// The gathering step depends with `afterany`: after `afterok`, a single task that is killed would leave it in the
+// queue for good. It finds out for itself what is missing.
 constexpr const char* kStart = R"sh(#!/bin/sh
 # Hands the job to Slurm: arrays of tasks, then the gathering step after all of them, however they end.
 # Options of the site come from the environment, such as SBATCH_PARTITION, SBATCH_ACCOUNT and SBATCH_TIMELIMIT.

@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kManifestVersion = 1;
 
-// Exit codes that announce the end of the machine's time (130 and its like, see docs/rendering.md) go to the engine, which
-// starts the task again where the checkpoint ends. Other failures, SIGKILL of the command among them, may pass: a full disk,
-// memory that another task took, a folder that is slow to appear.
+// Exit codes that announce the end of the machine's time (130 and its like, see docs/rendering.md) go to the engine,
+// which starts the task again where the checkpoint ends. Other failures, SIGKILL of the command among them, may pass:
+// a full disk, memory that another task took, a folder that is slow to appear.
 constexpr const char* kTask = R"sh(#!/bin/sh
 # Usage: task.sh NUMBER
 # Does a task of the job. A task that is done stays done; delete its file in results to do it again.
@@ -46,8 +46,9 @@ exit $code
 
 // The file with the result appears at once when it is complete: who waits for it never reads half of it.
 constexpr const char* kGather = R"sh(#!/bin/sh
-# After all tasks, however they ended: gathers their results. If some are missing because their machine was lost or they were
-# killed, it starts the job again, up to twice: only they are left to do. result.txt then has the exit code and a message.
+# After all tasks, however they ended: gathers their results. If some are missing because their machine was lost or
+# they were killed, it starts the job again, up to twice: only they are left to do. result.txt then has the exit code
+# and a message.
 cd @folder@ || exit 1
 report() {
     echo "$1" >result.part

@@ -34,7 +34,8 @@ struct SubmitShardsOptions {
     SubmitOptions job;
 };
 
-/// Adds the subcommand, whose subcommands store their result in exit_code, which must live until the command line was parsed.
+/// Adds the subcommand, whose subcommands store their result in exit_code, which must live until the command line was
+/// parsed.
 void setup_submit(CLI::App& app, int& exit_code);
 
 int run_submit_images(const SubmitImagesOptions& options);
