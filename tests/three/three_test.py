@@ -65,10 +65,9 @@ PAGE_IMAGE = """
 const [count, width, done] = arguments;
 (async function poll() {
     if (window.nusselt.frames("left") < count) return setTimeout(poll, 20);
-    const values = await window.nusselt.image("left");
+    const { mean } = await window.nusselt.image("left");
     const rows = [];
-    for (let i = values.length - 4 * width; i >= 0; i -= 4 * width)
-        rows.push(values.slice(i, i + 4 * width).filter((_, k) => k % 4 < 3));
+    for (let i = mean.length - 3 * width; i >= 0; i -= 3 * width) rows.push(mean.slice(i, i + 3 * width));
     done(rows.flat());
 })();
 """
@@ -93,7 +92,8 @@ def simple_materials(text):
         '  "rgb eta" [ 0.444 0.527 1.094 ] "rgb k" [ 3.695 2.765 1.829 ]\n'
     edited, count = re.subn(r'MakeNamedMaterial "floor"[^\n]*\n[^\n]*\n', floor, text)
     assert count == 1
-    return edited.replace('"coateddiffuse"', '"diffuse"')
+    # Diffuse materials have no roughness, and the page refuses what it does not show.
+    return re.sub(r'"coateddiffuse"(?: "float roughness" [0-9.]+)?', '"diffuse"', edited)
 
 
 def mean(values):
