@@ -20,6 +20,10 @@ constexpr std::string_view kDigits = "0123456789abcdef";
 /// 4 GiB of floats, as in files of whole images.
 constexpr std::int64_t kMaxValueCount = std::int64_t(1) << 30;
 
+/// Of the whole image, relative to the pixels of the file. A small file that claims to be part of a huge image must
+/// not take much memory.
+constexpr std::int64_t kMaxExpansion = std::int64_t(1) << 14;
+
 [[noreturn]] void fail_as_damaged() {
     throw std::runtime_error(
         "its list of tiles is damaged, or another program has changed its size; use the file as "
@@ -145,9 +149,13 @@ LayeredImage unpack(LayeredImage&& file) {
     const std::optional<PackedTiles> tiles = packed_tiles_of(file);
     if (!tiles) return std::move(file);
     const std::vector<PixelRun> runs = tiles->runs();
+    const std::int64_t packed_pixels = std::int64_t(file.data.width) * file.data.height;
     file.data = tiles->whole();
     file.metadata.erase(kTilesKey);
     const std::int64_t pixels = std::int64_t(file.data.width) * file.data.height;
+    if (pixels / packed_pixels > kMaxExpansion)
+        throw std::runtime_error(
+            "it holds less than 1/16384 of its image; use `nusselt merge --partial` to see it");
     std::int64_t channel_count = 0;
     for (const Layer& layer : file.layers) channel_count += std::int64_t(layer.channels.size());
     if (channel_count > kMaxValueCount / pixels)

@@ -72,7 +72,8 @@ private:
 [[nodiscard]] LayeredImage read_packed_layers(const std::filesystem::path& path);
 
 /// Puts tiles of a file back to their places. The rest is zero. Files without packed tiles stay as they are.
-/// \throws std::runtime_error if the metadata are damaged, or the whole image has more than 2^30 values
+/// \throws std::runtime_error if the metadata are damaged, or the whole image has more than 2^30 values or 2^14 times
+///                            the pixels of the file
 [[nodiscard]] LayeredImage unpack(LayeredImage&& file);
 
 } // namespace nusselt::image

@@ -142,6 +142,18 @@ TEST_F(PackedTilesTest, DamagedListsAreErrorsThatNameTheFile) {
     }
 }
 
+/// A small file must not take much memory. Who merges parts reads it as it is.
+TEST_F(PackedTilesTest, SmallFilesCannotClaimHugeImages) {
+    const Window window = {0, 0, 16000, 16000};
+    PackedTiles one_tile(window, 16);
+    one_tile.add(0, 0);
+    LayeredImage part{one_tile.window(), {0, 0, 16000, 16000}, {}, {{kTilesKey, one_tile.text()}}, {}};
+    part.layers = {{"", {"R", "G", "B"}, std::vector<float>(3 * 16 * 16)}};
+    write_layers(in_folder("part.exr"), part);
+    EXPECT_NE(error_of([&] { (void)read_image(in_folder("part.exr")); }).find("1/16384"), std::string::npos);
+    EXPECT_EQ(read_packed_layers(in_folder("part.exr")).layers.at(0).data.size(), 3u * 16 * 16);
+}
+
 TEST_F(PackedTilesTest, TruncatedFilesAreErrors) {
     write_layers(in_folder("part.exr"), pack(make_whole({5, 21, 150, 70}), every_third({5, 21, 150, 70})));
     const std::string bytes = read_bytes(in_folder("part.exr"));

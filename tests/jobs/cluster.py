@@ -30,7 +30,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 ReturnToService=2
 # Short times: a test must not wait for a scheduler that saves its strength.
-SchedulerParameters=sched_interval=2,batch_sched_delay=0,sched_min_interval=0
+SchedulerParameters=sched_interval=1,batch_sched_delay=0,sched_min_interval=0
 SlurmdTimeout=20
 KillWait=2
 # Nodes may claim more processors than the machine has.
