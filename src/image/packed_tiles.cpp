@@ -1,8 +1,10 @@
 #include "image/packed_tiles.h"
 
 #include "image/codecs.h"
+#include "image/content_hash.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <sstream>
@@ -48,9 +50,13 @@ PackedTiles::PackedTiles(const std::string& text) {
     if (!stream || whole_.x < 0 || whole_.x > kMaxPosition || whole_.y < 0 || whole_.y > kMaxPosition ||
         size_ < 1 || size_ > kMaxTileSize)
         fail_as_damaged();
+    if (std::string more; stream >> more) fail_as_damaged();
     check_size(whole_.width, whole_.height);
+    // Before there is memory for each tile.
+    const std::int64_t tiles = std::int64_t(tiles_along(whole_.x, whole_.width, size_)) *
+                               tiles_along(whole_.y, whole_.height, size_);
+    if (std::int64_t(digits.size()) != (tiles + 3) / 4) fail_as_damaged();
     *this = PackedTiles(whole_, size_);
-    if (digits.size() != (is_there_.size() + 3) / 4) fail_as_damaged();
     for (std::size_t i = 0; i < 4 * digits.size(); ++i) {
         const std::size_t digit = kDigits.find(digits[i / 4]);
         if (digit == std::string_view::npos) fail_as_damaged();
@@ -142,16 +148,33 @@ LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles) {
         layer.data = std::move(packed);
     }
     image.metadata[kTilesKey] = tiles.text();
+    add_content_hash(image);
     return std::move(image);
 }
 
-LayeredImage unpack(LayeredImage&& file) {
-    const std::optional<PackedTiles> tiles = packed_tiles_of(file);
-    if (!tiles) return std::move(file);
-    const std::vector<PixelRun> runs = tiles->runs();
+namespace {
+
+/// Adds the number of samples as a layer, in the order of names, if the file has it among its metadata only.
+void add_samples_layer(LayeredImage& file) {
+    const auto text = file.metadata.find(kSamplesLayer);
+    if (text == file.metadata.end() || find_layer(file, kSamplesLayer) != nullptr) return;
+    float count = 0;
+    std::from_chars(text->second.data(), text->second.data() + text->second.size(), count);
+    if (!(count > 0)) return;
+    const bool is_header = !file.layers.empty() && file.layers.front().data.empty();
+    const std::size_t pixels = std::size_t(file.data.width) * std::size_t(file.data.height);
+    const auto after = std::find_if(file.layers.begin(), file.layers.end(),
+                                    [](const Layer& layer) { return layer.name > kSamplesLayer; });
+    file.layers.insert(after, {kSamplesLayer, {"Y"}, std::vector<float>(is_header ? 0 : pixels, count)});
+}
+
+/// Puts the pixels of all layers to their places.
+LayeredImage placed(LayeredImage&& file, const PackedTiles& tiles) {
+    const std::vector<PixelRun> runs = tiles.runs();
     const std::int64_t packed_pixels = std::int64_t(file.data.width) * file.data.height;
-    file.data = tiles->whole();
+    file.data = tiles.whole();
     file.metadata.erase(kTilesKey);
+    file.metadata.erase(kContentHashKey);
     const std::int64_t pixels = std::int64_t(file.data.width) * file.data.height;
     if (pixels / packed_pixels > kMaxExpansion)
         throw std::runtime_error(
@@ -173,6 +196,25 @@ LayeredImage unpack(LayeredImage&& file) {
         }
     });
     return std::move(file);
+}
+
+} // namespace
+
+LayeredImage unpack(LayeredImage&& file) {
+    const std::optional<PackedTiles> tiles = packed_tiles_of(file);
+    if (!tiles) return std::move(file);
+    const bool has_data = std::any_of(file.layers.begin(), file.layers.end(),
+                                      [](const Layer& layer) { return !layer.data.empty(); });
+    if (has_data) check_content_hash(file);
+    add_samples_layer(file);
+    return placed(std::move(file), *tiles);
+}
+
+LayeredImage unpack_layer(LayeredImage&& file, std::string_view name) {
+    const std::optional<PackedTiles> tiles = packed_tiles_of(file);
+    if (!tiles) return std::move(file);
+    if (name == kSamplesLayer) add_samples_layer(file);
+    return placed(std::move(file), *tiles);
 }
 
 } // namespace nusselt::image

@@ -8,7 +8,7 @@
 /// work.
 ///
 /// read_image(), read_layers(), read_layer() and read_layer_list() of such a file give the whole image, black where
-/// no tile is. Only who merges parts reads them as they are.
+/// no tile is, with the layer kSamplesLayer. Only who merges many parts reads them as they are.
 
 #include "image/layers.h"
 
@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nusselt::image {
@@ -23,6 +24,10 @@ namespace nusselt::image {
 /// The key of the metadata that say which tiles a file holds: x, y, width and height of the whole image, the size of
 /// tiles and, in hexadecimal digits of four tiles each, which tiles are there, row by row.
 inline constexpr const char* kTilesKey = "tiles";
+
+/// The layer with the number of samples per pixel. Files have it unless that is the same in all their pixels; metadata under
+/// the same name then have the number.
+inline constexpr const char* kSamplesLayer = "samples";
 
 /// Pixels in one row of both images, counted row by row.
 struct PixelRun {
@@ -65,15 +70,22 @@ private:
 /// \throws std::runtime_error if the window of the file contradicts its metadata
 [[nodiscard]] std::optional<PackedTiles> packed_tiles_of(const LayeredImage& file);
 
-/// Keeps the chosen tiles only. \param image is moved from; its window is the one of `tiles`
+/// Keeps the chosen tiles only, and adds the hash of what is left (content_hash.h).
+/// \param image is moved from; its window is the one of `tiles`
 [[nodiscard]] LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles);
 
 /// read_layers() of a file as it is: of packed tiles, nothing but these.
 [[nodiscard]] LayeredImage read_packed_layers(const std::filesystem::path& path);
 
-/// Puts tiles of a file back to their places. The rest is zero. Files without packed tiles stay as they are.
-/// \throws std::runtime_error if the metadata are damaged, or the whole image has more than 2^30 values or 2^14 times
-///                            the pixels of the file
+/// Puts tiles of a file back to their places. The rest is zero, and has zero samples in the layer kSamplesLayer. The hash
+/// is compared and goes with the list of tiles: it was that of the file. Files without packed tiles stay as they are.
+/// \param file with all layers, or with none of their data
+/// \throws std::runtime_error if the metadata or pixels are damaged, or the whole image has more than 2^30 values or 2^14
+///                            times the pixels of the file
 [[nodiscard]] LayeredImage unpack(LayeredImage&& file);
+
+/// unpack() of a single layer, which no hash protects alone. Of other layers than `samples`, nothing is added.
+/// \param file with at most this layer
+[[nodiscard]] LayeredImage unpack_layer(LayeredImage&& file, std::string_view name);
 
 } // namespace nusselt::image

@@ -1,9 +1,9 @@
 #include "render/frame.h"
 
+#include "image/content_hash.h"
 #include "image/packed_tiles.h"
 #include "render/film.h"
 #include "render/memory.h"
-#include "render/metadata.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +142,7 @@ void check_file(const FrameSize& size, const std::vector<std::string>& light_nam
 
 /// The number of samples per pixel as a layer.
 image::Layer samples_layer(const Frame& frame, const RenderSettings& settings) {
-    image::Layer layer{"samples", {"Y"}, frame.rays};
+    image::Layer layer{image::kSamplesLayer, {"Y"}, frame.rays};
     const auto samples_per_ray = static_cast<float>(settings.samples / frame.camera_rays);
     for (float& value : layer.data) value *= samples_per_ray;
     return layer;
@@ -242,12 +242,13 @@ image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, con
     result.layers = std::move(frame.layers);
     result.layers.insert(result.layers.begin(), {"", kRgb, std::move(frame.image.pixels)});
     if (!is_finished) result.layers.push_back(std::move(samples));
-    if (settings.part.count == 1) return result;
+    if (settings.part.count == 1) {
+        add_content_hash(result);
+        return result;
+    }
     image::PackedTiles tiles(result.data, kTileSize);
     for (const Tile& tile : frame.tiles) tiles.add(tile.x_begin, tile.y_begin);
-    result = pack(std::move(result), tiles);
-    result.metadata[kContentHashKey] = content_hash(result);
-    return result;
+    return pack(std::move(result), tiles);
 }
 
 } // namespace nusselt::render

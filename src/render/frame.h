@@ -84,7 +84,7 @@ void for_each_row(AnyFrame& frame, const Tile& tile, const Function& function) {
 double finished_fraction(const Frame& frame);
 
 /// The frame as it goes into files: with all layers, and one more with the number of samples per pixel unless that is the
-/// same in all pixels; of a part, only its tiles, with a hash (image/packed_tiles.h, metadata.h).
+/// same in all pixels; of a part, only its tiles (image/packed_tiles.h); with a hash (image/content_hash.h).
 /// \param frame is moved from
 image::LayeredImage to_layered_image(Frame&& frame, const scene::Film& film, const RenderSettings& settings,
                                      image::Metadata metadata);

@@ -1,8 +1,9 @@
 #include "render/merge.h"
 
 #include "base/words.h"
+#include "image/content_hash.h"
 #include "image/packed_tiles.h"
-#include "render/metadata.h"
+#include "render/settings.h"
 
 #include <algorithm>
 #include <charconv>
@@ -18,14 +19,19 @@ namespace nusselt::render {
 namespace {
 
 /// Metadata that images of one rendering need not share.
-const std::set<std::string> kFreeKeys = {
-    "seed",           "samples",           "camera_rays",    "isa",          "part",
-    "render_seconds", "finished_fraction", image::kTilesKey, kContentHashKey};
+const std::set<std::string> kFreeKeys = {"seed",
+                                         "samples",
+                                         "camera_rays",
+                                         "isa",
+                                         "part",
+                                         "render_seconds",
+                                         "finished_fraction",
+                                         image::kTilesKey,
+                                         image::kContentHashKey};
 
 /// Doubles represent whole numbers exactly up to this one.
 constexpr double kMaxSampleCount = 0x1p53;
 
-const char* const kSamplesLayer = "samples";
 const char* const kCoverageLayer = "coverage";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
@@ -48,7 +54,7 @@ std::vector<double> samples_of(const image::LayeredImage& image, const std::file
                      "output of `nusselt render`");
     const std::size_t pixels =
         static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
-    if (const image::Layer* layer = image::find_layer(image, kSamplesLayer)) {
+    if (const image::Layer* layer = image::find_layer(image, image::kSamplesLayer)) {
         std::vector<double> samples(layer->data.begin(), layer->data.end());
         const auto is_bad = [](double n) { return !(n >= 0 && n <= kMaxSampleCount); };
         if (layer->channels.size() != 1 || std::any_of(samples.begin(), samples.end(), is_bad))
@@ -90,11 +96,16 @@ void for_each_pixel(const Place& place, const Function& function) {
 }
 
 void check_content(const image::LayeredImage& image, const std::filesystem::path& path) {
-    const auto found = image.metadata.find(kContentHashKey);
-    if (found != image.metadata.end() && found->second != content_hash(image))
-        refuse(path, "its pixels are not those that were written: the file is damaged or incomplete, or "
-                     "another program "
-                     "has changed it; render this part again");
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
+    for (const image::Layer& layer : image.layers)
+        if (layer.data.size() != pixels * layer.channels.size())
+            refuse(path, "its layer '" + layer.name + "' has other pixels than its window");
+    try {
+        check_content_hash(image);
+    } catch (const std::runtime_error& error) {
+        refuse(path, std::string(error.what()) + "; of a part of a job, delete the file");
+    }
 }
 
 std::set<std::string> words_of(const image::Metadata& metadata, const std::string& key) {
@@ -120,7 +131,7 @@ std::string size_text(const image::Window& window) {
 std::string layers_text(const image::LayeredImage& image) {
     std::string text;
     for (const image::Layer& layer : image.layers) {
-        if (layer.name == kSamplesLayer) continue;
+        if (layer.name == image::kSamplesLayer) continue;
         for (const std::string& channel : layer.channels)
             text += (text.empty() ? "" : " ") + (layer.name.empty() ? "" : layer.name + ".") + channel;
     }
@@ -192,7 +203,8 @@ std::string short_listing(std::vector<std::string> names) {
     return base::listing(names, "and");
 }
 
-/// The parts that are not there, such as "2/3", if all that are there divide the image in the same way.
+/// The parts that are not there, such as "2/3", if all that are there divide the image in the same way. Files may state
+/// anything; what cannot be a part counts as none.
 std::vector<std::string> missing_parts(const std::set<std::string>& parts) {
     std::set<int> numbers;
     int count = 0;
@@ -200,6 +212,7 @@ std::vector<std::string> missing_parts(const std::set<std::string>& parts) {
         int number = 0, count_of_part = 0;
         char slash = 0;
         std::istringstream(part) >> number >> slash >> count_of_part;
+        if (count_of_part < 1 || count_of_part > kMaxParts || number < 1 || number > count_of_part) continue;
         if (count != 0 && count_of_part != count) return {};
         count = count_of_part;
         numbers.insert(number);
@@ -238,11 +251,11 @@ void Merger::State::begin(const image::LayeredImage& first, const image::Window&
     image.display = first.display;
     image.metadata = first.metadata;
     image.metadata.erase(image::kTilesKey);
-    image.metadata.erase(kContentHashKey);
+    image.metadata.erase(image::kContentHashKey);
     image.foreign_metadata = first.foreign_metadata;
     samples.resize(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
     for (const image::Layer& layer : first.layers) {
-        if (layer.name == kSamplesLayer) continue;
+        if (layer.name == image::kSamplesLayer) continue;
         image.layers.push_back({layer.name, layer.channels, {}});
         layers.push_back({rule_of(layer), std::vector<double>(layer.channels.size() * samples.size())});
     }
@@ -288,7 +301,7 @@ void Merger::State::add_layers(const image::LayeredImage& other, const Place& pl
     for (std::size_t i = 0; i < layers.size(); ++i)
         if (image.layers[i].name == kCoverageLayer) coverage = i;
     for (const image::Layer& layer : other.layers) {
-        if (layer.name == kSamplesLayer) continue;
+        if (layer.name == image::kSamplesLayer) continue;
         LayerSum& sum = layers[index++];
         if (!follows(sum.rule)) continue;
         const auto combine = sum.rule == Rule::variance_of_mean ? variance_of_mean : weighted_mean;
@@ -312,9 +325,9 @@ Merger::Merger() = default;
 Merger::~Merger() = default;
 
 void Merger::add(const image::LayeredImage& image, const std::filesystem::path& path) {
-    const std::vector<double> new_samples = samples_of(image, path);
     const Place place = place_of(image, path);
     check_content(image, path);
+    const std::vector<double> new_samples = samples_of(image, path);
     if (!state_) {
         state_ = std::make_unique<State>();
         state_->begin(image, place.whole);
@@ -381,7 +394,7 @@ image::LayeredImage Merger::result() const {
     } else {
         metadata.erase("samples");
         metadata["part"] = joined(state.parts);
-        result.layers.push_back({kSamplesLayer, {"Y"}, {state.samples.begin(), state.samples.end()}});
+        result.layers.push_back({image::kSamplesLayer, {"Y"}, {state.samples.begin(), state.samples.end()}});
     }
     std::set<std::string> seeds;
     for (const auto& [seed, pixels] : state.sampled) seeds.insert(seed);
@@ -392,6 +405,7 @@ image::LayeredImage Merger::result() const {
     metadata["render_seconds"] = image::metadata_text(state.render_seconds);
     metadata["finished_fraction"] =
         image::metadata_text(static_cast<double>(finished) / static_cast<double>(state.samples.size()));
+    add_content_hash(result);
     return result;
 }
 

@@ -1,11 +1,7 @@
 #include "render/metadata.h"
 
-#include "scene/model/content_hash.h"
 #include "scene/model/fingerprint.h"
 
-#include <cinttypes>
-#include <cstdint>
-#include <cstdio>
 #include <string>
 
 namespace nusselt::render {
@@ -46,19 +42,6 @@ image::Metadata make_metadata(const scene::Scene& scene, const RenderSettings& s
     image::Metadata metadata = make_metadata(scene, settings);
     metadata.merge(backend.metadata());
     return metadata;
-}
-
-std::string content_hash(const image::LayeredImage& image) {
-    std::uint64_t sum = 0;
-    for (const image::Layer& layer : image.layers) {
-        scene::ContentHash hash;
-        hash.add_bytes(layer.name.data(), layer.name.size());
-        hash.add_bytes(layer.data.data(), layer.data.size() * sizeof(float));
-        sum += hash.value();
-    }
-    char text[17];
-    std::snprintf(text, sizeof text, "%016" PRIx64, sum);
-    return text;
 }
 
 } // namespace nusselt::render

@@ -60,8 +60,15 @@ TEST_F(PackedTilesTest, ReadersPutTilesBackToTheirPlaces) {
         EXPECT_EQ(read.data, window);
         EXPECT_EQ(read.display, expected.display);
         EXPECT_EQ(read.metadata, expected.metadata);
-        ASSERT_EQ(read.layers.size(), 2u);
+        // The layer of samples tells pixels that are not there from black ones.
+        ASSERT_EQ(read.layers.size(), 3u);
         for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(read.layers[i].data, expected.layers[i].data);
+        std::vector<float> samples;
+        for (const float depth : expected.layers[1].data) samples.push_back(depth == 0 ? 0.0f : 4.0f);
+        EXPECT_EQ(read.layers[2].name, kSamplesLayer);
+        EXPECT_EQ(read.layers[2].data, samples);
+        EXPECT_EQ(read_layer(in_folder("part.exr"), kSamplesLayer).layers.at(0).data, samples);
+        EXPECT_EQ(read_layer_list(in_folder("part.exr")).layers.at(2).name, kSamplesLayer);
         const Image picture = read_image(in_folder("part.exr"));
         EXPECT_EQ(picture.width, window.width);
         EXPECT_EQ(picture.pixels, expected.layers[0].data);
@@ -128,8 +135,8 @@ TEST_F(PackedTilesTest, DamagedListsAreErrorsThatNameTheFile) {
     for (const char* text :
          {"", "16", "16 32 64 48 16", "16 32 64 48 16 49", "16 32 64 48 16 4920", "16 32 64 48 16 49g",
           "16 32 64 48 0 492", "16 32 64 48 9999 8", "-1 32 64 48 16 492", "16 32 0 48 16 492",
-          "16 32 99999 99999 16 492", "16 32 64 48 16 fff", "17 32 50 48 16 ffff", "1 1 16 16 16 ff",
-          "99999999999 32 64 48 16 492"}) {
+          "16 32 99999 99999 16 492", "16 32 64 48 16 492 1", "16 32 64 48 16 fff", "17 32 50 48 16 ffff",
+          "1 1 16 16 16 ff", "99999999999 32 64 48 16 492"}) {
         LayeredImage wrong = part;
         wrong.metadata[kTilesKey] = text;
         write_layers(in_folder("part.exr"), wrong);
@@ -140,6 +147,44 @@ TEST_F(PackedTilesTest, DamagedListsAreErrorsThatNameTheFile) {
         EXPECT_NE(error_of([&] { (void)read_image(in_folder("part.exr")); }).find("part.exr"),
                   std::string::npos);
     }
+}
+
+/// Bits of the list that are exchanged leave as many tiles: only the hash finds them.
+TEST_F(PackedTilesTest, AHashProtectsPixelsAndTheirPlaces) {
+    const Window window = {16, 32, 64, 48};
+    const LayeredImage part = pack(make_whole(window), every_third(window));
+    LayeredImage moved = part;
+    moved.metadata[kTilesKey] = "16 32 64 48 16 294";
+    LayeredImage other_seed = part;
+    other_seed.metadata["seed"] = "7";
+    LayeredImage other_samples = part;
+    other_samples.metadata["samples"] = "8";
+    LayeredImage hole = part;
+    std::fill_n(hole.layers[1].data.begin() + 7, 20, 0.0f);
+    LayeredImage renamed = part;
+    renamed.layers[1].name = "height";
+    for (const LayeredImage& wrong : {moved, other_seed, other_samples, hole, renamed}) {
+        write_layers(in_folder("part.exr"), wrong);
+        EXPECT_NE(
+            error_of([&] { (void)read_layers(in_folder("part.exr")); }).find("not those that were written"),
+            std::string::npos);
+    }
+    // What hashes do not cover may change: times, for example.
+    LayeredImage later = part;
+    later.metadata["render_seconds"] = "5";
+    write_layers(in_folder("part.exr"), later);
+    EXPECT_EQ(error_of([&] { (void)read_layers(in_folder("part.exr")); }), "");
+}
+
+TEST_F(PackedTilesTest, PartsOfOneChannelAreWholeImagesForReaders) {
+    const Window window = {16, 32, 64, 48};
+    LayeredImage grey = make_whole(window);
+    grey.layers = {{"", {"Y"}, std::move(grey.layers[1].data)}};
+    write_layers(in_folder("part.exr"), pack(std::move(grey), every_third(window)));
+    const Image picture = read_image(in_folder("part.exr"));
+    EXPECT_EQ(picture.width, window.width);
+    EXPECT_EQ(picture.pixels[3 * 16], float(17)) << "the second tile is the first that is there";
+    EXPECT_EQ(picture.pixels[0], 0);
 }
 
 /// A small file must not take much memory. Who merges parts reads it as it is.

@@ -3,6 +3,7 @@
 #include "apps/common/validators.h"
 #include "base/file_checks.h"
 
+#include "image/content_hash.h"
 #include "image/io.h"
 #include "image/layers.h"
 
@@ -62,6 +63,7 @@ void convert_exr_to_exr(const ConvertOptions& options) {
     file.layers.clear();
     file.layers.push_back(image::color_layer(std::move(picture)));
     file.metadata[image::kConvertedKey] = "yes";
+    file.metadata.erase(image::kContentHashKey);
     image::write_layers(*options.output, file);
 }
 

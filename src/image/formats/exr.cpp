@@ -30,7 +30,8 @@ Image whole_image(const ExrPart& part, Image image) {
     if (metadata.count(kTilesKey) == 0) return image;
     const Window window = {part.header().dataWindow().min.x, part.header().dataWindow().min.y, image.width,
                            image.height};
-    LayeredImage whole = unpack({window, window, {color_layer(std::move(image))}, std::move(metadata), {}});
+    LayeredImage whole =
+        unpack_layer({window, window, {color_layer(std::move(image))}, std::move(metadata), {}}, "");
     return layer_image(whole.data, std::move(whole.layers[0]));
 }
 
@@ -53,7 +54,7 @@ Image decode_exr(std::ifstream& stream) {
     part.read({{{"Y"}, &grey}});
     image.pixels.reserve(3 * grey.size());
     for (const float value : grey) image.pixels.insert(image.pixels.end(), 3, value);
-    return image;
+    return whole_image(part, std::move(image));
 }
 
 Metadata decode_exr_metadata(std::ifstream& stream) { return text_attributes(ExrPart(stream).header()).ours; }

@@ -98,7 +98,7 @@ LayeredImage decode_exr_layer(std::ifstream& stream, std::string_view layer) {
     LayeredImage image = layer_list(part);
     std::erase_if(image.layers, [&](const Layer& other) { return other.name != layer; });
     if (!image.layers.empty()) read_data(part, image);
-    return unpack(std::move(image));
+    return unpack_layer(std::move(image), layer);
 }
 
 const Layer* find_layer(const LayeredImage& image, std::string_view name) {

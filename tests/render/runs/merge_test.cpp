@@ -2,8 +2,11 @@
 
 #include "render/merge.h"
 
+#include "image/packed_tiles.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -136,6 +139,55 @@ TEST(Merge, RefusesTheSameSamplesTwice) {
     EXPECT_NE(problem_with({make_input("0", 1, 5, 8, 8), make_input("0", 0, 5, 0, 8)}).find("in0.exr"),
               std::string::npos);
     EXPECT_EQ(problem_with({make_input("0", 1, 5, 8, 0), make_input("0", 0, 5, 0, 8)}), "");
+}
+
+/// Two pixels in tiles of one pixel; each part has one of them.
+LayeredImage make_part(int x, float value) {
+    LayeredImage image = make_input("0", 0, 0, 8, 8);
+    image.metadata["part"] = x == 0 ? "1/2" : "2/2";
+    image.layers.pop_back(); // the metadata have the number
+    std::fill_n(image.layers[0].data.begin() + 3 * x, 3, value);
+    image::PackedTiles tiles(image.data, 1);
+    tiles.add(x, 0);
+    return pack(std::move(image), tiles);
+}
+
+TEST(Merge, TakesPartsWithAndWithoutTheirOtherPixels) {
+    const std::vector<float> expected = {3, 3, 3, 5, 5, 5};
+    EXPECT_EQ(merged({make_part(0, 3), make_part(1, 5)}).layers[0].data, expected);
+    EXPECT_EQ(merged({image::unpack(make_part(0, 3)), make_part(1, 5)}).layers[0].data, expected);
+    EXPECT_EQ(merged({make_part(1, 5), image::unpack(make_part(0, 3))}).layers[0].data, expected);
+    const LayeredImage both = merged({image::unpack(make_part(1, 5)), image::unpack(make_part(0, 3))});
+    EXPECT_EQ(both.layers[0].data, expected);
+    EXPECT_EQ(both.metadata.at("samples"), "8");
+}
+
+TEST(Merge, RefusesImagesThatWereChanged) {
+    const LayeredImage result = merged({make_input("0", 1, 5, 8, 8), make_input("1", 4, 1, 8, 8)});
+    EXPECT_EQ(problem_with({result, make_input("2", 1, 1, 8, 8)}), "");
+    LayeredImage hole = result;
+    hole.layers[0].data[3] = 0;
+    LayeredImage more_samples = result;
+    more_samples.metadata["samples"] = "17";
+    LayeredImage other_seed = result;
+    other_seed.metadata["seed"] = "3";
+    LayeredImage moved = result;
+    moved.data.x = 1;
+    for (const LayeredImage& wrong : {hole, more_samples, other_seed, moved})
+        EXPECT_NE(problem_with({wrong}).find("not those that were written"), std::string::npos);
+    LayeredImage fewer_pixels = make_input("0", 1, 5, 8, 8);
+    fewer_pixels.layers[0].data.pop_back();
+    EXPECT_NE(problem_with({fewer_pixels}).find("other pixels than its window"), std::string::npos);
+}
+
+TEST(Merge, NamesNoPartsThatCannotBe) {
+    for (const char* part : {"1/2000000000", "0/2", "3/2", "1/-5", "1/1048577"}) {
+        LayeredImage image = make_input("0", 1, 0, 8, 0);
+        image.metadata["part"] = part;
+        Merger merger;
+        merger.add(image, "in.exr");
+        EXPECT_EQ(merger.what_is_missing(), "the parts do not divide the image in the same way") << part;
+    }
 }
 
 TEST(Merge, RefusesWhatDoesNotBelongTogether) {
