@@ -37,6 +37,8 @@ class SlurmTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory(prefix="nusselt-slurm-")
+        # What shells, Slurm and the scripts of jobs themselves might read as something else.
+        cls.odd = tempfile.TemporaryDirectory(prefix="nusselt 'a\"b $x\\n@tasks@ 5%a ")
         # Nodes of one processor: two tasks at a time, one for each core of the smallest machine that runs the tests.
         cls.cluster = cluster.Cluster(pathlib.Path(cls.temporary.name) / "cluster", cpus=1)
         cls.cluster.__enter__()
@@ -45,9 +47,10 @@ class SlurmTest(unittest.TestCase):
     def tearDownClass(cls):
         cls.cluster.stop()
         cls.temporary.cleanup()
+        cls.odd.cleanup()
 
     def setUp(self):
-        self.folder = pathlib.Path(self.temporary.name) / self.id().split(".")[-1]
+        self.folder = pathlib.Path(self.odd.name) / self.id().split(".")[-1]
         self.folder.mkdir()
         self.job = self.folder / "image.job"
 

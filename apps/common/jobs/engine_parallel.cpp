@@ -6,6 +6,8 @@ namespace nusselt::app {
 namespace {
 
 // Tasks that fail are no reason to stop the others; the gathering step finds out what is missing.
+// The lock says that the job is being done: unlike the number of a process, it ends with its owner, and nobody else has it.
+// GNU parallel would kill tasks 350 ms after Ctrl-C, while they still write their checkpoints.
 constexpr const char* kStart = R"sh(#!/bin/sh
 # Does the job with GNU parallel: on the processors of this machine, or on others, which see the same files, with
 # PARALLEL='--sshloginfile FILE' in the environment.
@@ -15,28 +17,39 @@ if ! parallel --version 2>/dev/null | grep -q GNU; then
     echo "GNU parallel is missing: install the package parallel" >&2
     exit 1
 fi
+exec 9>engine.lock || exit 1
+if ! flock -w 5 9; then
+    echo "the job is being done already, or $PWD supports no locks; wait, or choose another folder with --job" >&2
+    exit 1
+fi
 rm -f result.txt
-echo $$ >engine-process.txt
-jobs=$(($(nproc) / @threads@))
-[ $jobs -ge 1 ] || jobs=1
-seq @tasks@ | parallel --will-cite --jobs $jobs --workdir "$PWD" ./task.sh {}
+# On other machines, a share of what each of them has.
+case "${PARALLEL-}" in
+    *-S* | *--ssh* | *--slf*) jobs=$((100 / @threads@))% ;;
+    *) jobs=$(($(nproc) / @threads@)) ;;
+esac
+case $jobs in 0 | 0%) jobs=1 ;; esac
+stopped=
+trap 'stopped=143' TERM
+trap 'stopped=130' INT
+./missing.sh | parallel --will-cite --jobs $jobs --termseq TERM,30000,KILL,25 --workdir "$PWD" ./task.sh {} 9>&-
 code=$?
-# From 102 on, the code is of parallel itself; SIGINT and its like end all.
+[ -z "$stopped" ] || exit $stopped
+# From 102 on, the code is of parallel itself.
 [ $code -le 101 ] || exit $code
 exec ./gather.sh
 )sh";
 
 constexpr const char* kAlive = R"sh(#!/bin/sh
-# Whether the process that does the job still lives: 0 if so, 1 if not.
+# Whether somebody does the job: 0 if so, 1 if not.
 cd "$(dirname "$0")" || exit 2
-[ -e engine-process.txt ] || exit 1
-kill -0 "$(cat engine-process.txt)" 2>/dev/null || exit 1
+[ -e engine.lock ] || exit 1
+flock -n -E 3 engine.lock true
+[ $? -eq 3 ]
 )sh";
 
 std::vector<JobFile> files(const Job& job) {
-    return {{"start.sh", filled(kStart, {{"tasks", std::to_string(job.tasks.size())},
-                                         {"threads", std::to_string(job.threads)}})},
-            {"alive.sh", kAlive}};
+    return {{"start.sh", filled(kStart, {{"threads", std::to_string(job.threads)}})}, {"alive.sh", kAlive}};
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "engine.h"
 
+#include <stdexcept>
+
 namespace nusselt::app {
 
 namespace {
@@ -13,17 +15,25 @@ nlohmann::ordered_json step(const Job& job, const std::string& name, const std::
 }
 
 /// A job template of the Open Job Description 2023-09, which AWS Deadline Cloud and others read.
+/// \throws std::runtime_error if the template would mean something else
 std::vector<JobFile> files(const Job& job) {
+    if (job.folder.string().find("{{") != std::string::npos)
+        throw std::runtime_error("'" + job.folder.string() +
+                                 "' has {{, which job templates expand; choose another folder with --job");
+    constexpr std::size_t kMostNameBytes = 128;
     nlohmann::ordered_json tasks = step(job, "Tasks", "task.sh", {"{{Task.Param.Task}}"});
     tasks["parameterSpace"] = {
         {"taskParameterDefinitions",
          {{{"name", "Task"}, {"type", "INT"}, {"range", "1-" + std::to_string(job.tasks.size())}}}}};
+    // In place of SIGKILL, so that checkpoints are written.
+    tasks["script"]["actions"]["onRun"]["cancelation"] = {{"mode", "NOTIFY_THEN_TERMINATE"}};
     tasks["hostRequirements"] = {{"amounts", {{{"name", "amount.worker.vcpu"}, {"min", job.threads}}}}};
     nlohmann::ordered_json gather = step(job, "Gather", "gather.sh", {});
     // Here, a task that fails for good stops the job, and the engine shows that; there is no step after failed ones.
     gather["dependencies"] = {{{"dependsOn", "Tasks"}}};
-    const nlohmann::ordered_json job_template = {
-        {"specificationVersion", "jobtemplate-2023-09"}, {"name", job.name}, {"steps", {tasks, gather}}};
+    const nlohmann::ordered_json job_template = {{"specificationVersion", "jobtemplate-2023-09"},
+                                                 {"name", job.name.substr(0, kMostNameBytes)},
+                                                 {"steps", {tasks, gather}}};
     return {{"template.json", job_template.dump(2) + "\n"}};
 }
 

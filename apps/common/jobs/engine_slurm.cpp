@@ -13,35 +13,72 @@ constexpr int kMaxArrayIndex = 1000;
 // The gathering step depends with `afterany`: after `afterok`, a single task that is killed would leave it in the
 // queue for good. It finds out for itself what is missing.
 constexpr const char* kStart = R"sh(#!/bin/sh
-# Hands the job to Slurm: arrays of tasks, then the gathering step after all of them, however they end.
-# Options of the site come from the environment, such as SBATCH_PARTITION, SBATCH_ACCOUNT and SBATCH_TIMELIMIT.
+# Hands the job to Slurm: arrays of the tasks that are left to do, then the gathering step after all of them, however
+# they end. Options of the site come from the environment, such as SBATCH_PARTITION, SBATCH_ACCOUNT and
+# SBATCH_TIMELIMIT.
 set -eu
 cd "$(dirname "$0")"
 if ! command -v sbatch >/dev/null; then
     echo "sbatch is missing: start the job on a machine of the cluster, or install slurm-client" >&2
     exit 1
 fi
-rm -f result.txt
-submit() {
-    sbatch --parsable --requeue --job-name=@name@ --chdir="$PWD" --open-mode=append "$@" | cut -d ';' -f 1
+cancel() {
+    [ ! -e engine-jobs.txt ] || while read -r id; do
+        [ "$id" = "${SLURM_JOB_ID-}" ] || scancel "$id" 2>/dev/null || :
+    done <engine-jobs.txt
 }
+# What a start has left that was interrupted. Otherwise, all of these have ended.
+cancel
+rm -f result.txt engine-gather.txt
+: >engine-jobs.txt
+# All or nothing: a limit of the site may refuse one of many arrays.
+trap cancel EXIT
+trap 'exit 143' TERM
+trap 'exit 130' INT
+submit() {
+    id=$(sbatch --parsable --requeue --job-name=@name@ --chdir="$PWD" --open-mode=append "$@")
+    id=${id%%;*}
+    [ -n "$id" ]
+    echo "$id" >>engine-jobs.txt
+}
+./missing.sh >missing.txt
 first=0 arrays=
 while [ $first -lt @tasks@ ]; do
-    count=$((@tasks@ - first))
-    [ $count -le @most@ ] || count=@most@
-    array=$(submit --cpus-per-task=@threads@ --array=1-$count --output=logs/array-%a.txt array.sh $first)
-    [ -n "$array" ] || exit 1
-    arrays=$arrays:$array
-    first=$((first + count))
+    list=$(awk -v first=$first -v most=@most@ '
+        function add() { if (end) printf "%s%s", comma, (begin == end ? end : begin "-" end); comma = "," }
+        $1 > first && $1 <= first + most {
+            if (end && $1 - first == end + 1) { end++; next }
+            if (end) add()
+            begin = end = $1 - first
+        }
+        END { add() }' missing.txt)
+    if [ -n "$list" ]; then
+        submit --cpus-per-task=@threads@ --array="$list" --output=logs/array-%a.txt array.sh $first
+        arrays=$arrays:$id
+    fi
+    first=$((first + @most@))
 done
-gather=$(submit --dependency="afterany$arrays" --output=logs/gather-step.txt gather.sh)
-[ -n "$gather" ] || exit 1
-echo "${arrays#:}:$gather" | tr : '\n' >engine-jobs.txt
+submit ${arrays:+--dependency=afterany$arrays} --output=logs/gather-step.txt gather-step.sh
+echo "$id" >engine-gather.txt
+trap - EXIT TERM INT
 )sh";
 
+// Without the folder, Slurm would run these in /tmp, where anybody could have put a task.sh.
 constexpr const char* kArray = R"sh(#!/bin/sh
-# One task of an array. Slurm runs a copy of this file, in the folder of the job.
-exec ./task.sh $(($1 + SLURM_ARRAY_TASK_ID))
+# One task of an array. Slurm runs a copy of this file.
+exec @folder@/task.sh $(($1 + SLURM_ARRAY_TASK_ID))
+)sh";
+
+// Slurm may start it a second time, after a failure of its machine. If it has handed the job on by then, the new gathering
+// step has it; if it was interrupted before, it starts the tasks again.
+constexpr const char* kGatherStep = R"sh(#!/bin/sh
+# The step after all arrays. Slurm runs a copy of this file.
+cd @folder@ || exit 1
+for attempt in 1 2 3 4 5 6 7 8 9 10; do
+    [ "$(cat engine-gather.txt 2>/dev/null)" != "$SLURM_JOB_ID" ] || exec ./gather.sh
+    [ "${SLURM_RESTART_COUNT:-0}" -eq 0 ] || [ -s engine-gather.txt ] || exec ./gather.sh
+    sleep 1 # start.sh may still be about to write it
+done
 )sh";
 
 constexpr const char* kAlive = R"sh(#!/bin/sh
@@ -54,11 +91,13 @@ echo "$known" | grep -qxFf engine-jobs.txt || exit 1
 )sh";
 
 std::vector<JobFile> files(const Job& job) {
+    const std::string folder = base::shell_word(job.folder.string());
     return {{"start.sh", filled(kStart, {{"name", base::shell_word(job.name)},
                                          {"tasks", std::to_string(job.tasks.size())},
                                          {"most", std::to_string(kMaxArrayIndex)},
                                          {"threads", std::to_string(job.threads)}})},
-            {"array.sh", kArray},
+            {"array.sh", filled(kArray, {{"folder", folder}})},
+            {"gather-step.sh", filled(kGatherStep, {{"folder", folder}})},
             {"alive.sh", kAlive}};
 }
 

@@ -9,7 +9,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -23,6 +25,10 @@ namespace {
 
 /// Between two questions to the engine [s].
 constexpr double kInquiryInterval = 5;
+/// Of a script whose exit code nobody can tell.
+constexpr int kUnknownCode = 255;
+/// At the start, an engine that does not answer is asked so often.
+constexpr int kMostInquiries = 5;
 /// So many times in a row the engine must not have the job: it may hand it on between two questions.
 constexpr int kMostAbsences = 3;
 
@@ -42,7 +48,8 @@ public:
             ::dup2(nothing, STDIN_FILENO);
             ::dup2(file, STDOUT_FILENO);
             ::dup2(file, STDERR_FILENO);
-            ::execl(script_text.c_str(), script_text.c_str(), nullptr);
+            // Folders may forbid to execute files.
+            ::execl("/bin/sh", "sh", script_text.c_str(), nullptr);
             ::_exit(127);
         }
         ::setpgid(pid_, pid_); // whoever is first
@@ -53,14 +60,11 @@ public:
 
     /// The exit code, if it has ended.
     std::optional<int> exit_code() {
-        int status = 0;
-        if (!code_ && ::waitpid(pid_, &status, WNOHANG) == pid_) set_code(status);
+        if (!code_) ask(WNOHANG);
         return code_;
     }
     int wait() {
-        int status = 0;
-        while (!code_)
-            if (::waitpid(pid_, &status, 0) == pid_) set_code(status);
+        while (!code_) ask(0);
         return *code_;
     }
     /// Asks all its processes to end.
@@ -69,6 +73,13 @@ public:
     }
 
 private:
+    void ask(int options) {
+        int status = 0;
+        const pid_t found = ::waitpid(pid_, &status, options);
+        if (found == pid_) set_code(status);
+        // Who ignores SIGCHLD, and has passed that on, never hears of the exit code.
+        if (found < 0 && errno != EINTR) code_ = kUnknownCode;
+    }
     void set_code(int status) { code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
     pid_t pid_;
@@ -98,6 +109,14 @@ std::string text_of(const std::filesystem::path& log) {
     return text;
 }
 
+/// Why start.sh has failed.
+std::string reason_of(int exit_code, const Job& job, const std::filesystem::path& log) {
+    const std::string text = text_of(log);
+    return text.empty() ? fmt::format("'{}' ended with code {}; start it by hand to see more",
+                                      (job.folder / "start.sh").string(), exit_code)
+                        : text;
+}
+
 double done_fraction(const Job& job) {
     std::error_code error;
     std::size_t done = 0;
@@ -112,6 +131,17 @@ enum class Presence { there, gone, unknown };
 Presence presence(const Job& job) {
     const int code = Script(job.folder / "alive.sh", "/dev/null").wait();
     return code == 0 ? Presence::there : code == 1 ? Presence::gone : Presence::unknown;
+}
+
+/// Whether the engine has the job. Who takes no answer for a no gives the same tasks to it twice.
+/// \throws std::runtime_error if it does not answer
+bool has_job_already(const Job& job) {
+    for (int inquiry = 0; inquiry < kMostInquiries && !interrupted; ++inquiry) {
+        const Presence found = presence(job);
+        if (found != Presence::unknown) return found == Presence::there;
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    throw std::runtime_error("the engine does not answer, and may have the job already; try again later");
 }
 
 /// Asks the engine now and then.
@@ -164,7 +194,7 @@ int run_job(const Job& job, const std::function<void(double)>& progress,
     const base::Stopwatch stopwatch;
     std::optional<Script> starter;
     const std::filesystem::path start_log = job.folder / "logs/start.txt";
-    if (presence(job) == Presence::there) {
+    if (has_job_already(job)) {
         notify("the engine has the job already; following it");
     } else {
         std::error_code ignored;
@@ -178,7 +208,8 @@ int run_job(const Job& job, const std::function<void(double)>& progress,
         progress(done_fraction(job));
         if (starter && starter->exit_code()) {
             if (*starter->exit_code() != 0 && !result_of(job))
-                throw std::runtime_error("the job cannot be started: " + text_of(start_log));
+                throw std::runtime_error(fmt::format("the job cannot be started: {}",
+                                                     reason_of(*starter->exit_code(), job, start_log)));
             starter.reset();
         }
         if (!starter) inquiry.ask();

@@ -14,7 +14,8 @@ namespace nusselt::app {
 /// \param notify   receives what a user should know; each text once
 /// \returns 0, or interrupted_exit_code() after Ctrl-C; then Slurm goes on with the job, and what runs on this
 ///        machine stops
-/// \throws std::runtime_error if the job cannot be started, if it fails, or if the engine has lost it
+/// \throws std::runtime_error if the job cannot be started, if it fails, if the engine has lost it, or if at the start the
+///                            engine does not say whether it has the job
 int run_job(const Job& job, const std::function<void(double)>& progress,
             const std::function<void(const std::string&)>& notify);
 

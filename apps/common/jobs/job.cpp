@@ -1,92 +1,26 @@
 #include "job.h"
 
 #include "engine.h"
+#include "job_scripts.h"
 #include "script_text.h"
 
 #include "base/atomic_file.h"
 #include "base/words.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace nusselt::app {
 
 namespace {
 
 constexpr int kManifestVersion = 1;
-
-// Exit codes that announce the end of the machine's time (130 and its like, see docs/rendering.md) go to the engine,
-// which starts the task again where the checkpoint ends. Other failures, SIGKILL of the command among them, may pass:
-// a full disk, memory that another task took, a folder that is slow to appear.
-constexpr const char* kTask = R"sh(#!/bin/sh
-# Usage: task.sh NUMBER
-# Does a task of the job. A task that is done stays done; delete its file in results to do it again.
-folder=$(cd "$(dirname "$0")" && pwd) || exit 1
-number=$1
-output=$(sed -n "${number}p" "$folder/outputs.txt")
-if [ -e "$folder/done/$number" ] && [ -s "$output" ]; then exit 0; fi
-cd @working_folder@ || exit 1
-for attempt in 1 2 3; do
-    code=0
-    sh -c "exec $(sed -n "${number}p" "$folder/tasks.txt")" </dev/null >>"$folder/logs/$number.txt" 2>&1 || code=$?
-    case $code in
-        0)
-            : >"$folder/done/$number" && exit 0
-            code=1
-            ;;
-        2 | 129 | 130 | 138 | 143 | 152) break ;;
-    esac
-    echo "attempt $attempt of task $number ended with code $code on $(uname -n)" >>"$folder/logs/$number.txt"
-    [ $attempt -eq 3 ] || sleep $attempt
-done
-exit $code
-)sh";
-
-// The file with the result appears at once when it is complete: who waits for it never reads half of it.
-constexpr const char* kGather = R"sh(#!/bin/sh
-# After all tasks, however they ended: gathers their results. If some are missing because their machine was lost or
-# they were killed, it starts the job again, up to twice: only they are left to do. result.txt then has the exit code
-# and a message.
-cd @folder@ || exit 1
-report() {
-    echo "$1" >result.part
-    echo "$2" | tr '\n' ' ' >>result.part
-    mv result.part result.txt
-    exit "$1"
-}
-missing= count=0
-for number in $(seq @tasks@); do
-    output=$(sed -n "${number}p" outputs.txt)
-    if [ -e "done/$number" ] && [ -s "$output" ]; then continue; fi
-    count=$((count + 1))
-    [ $count -gt 8 ] || missing="$missing $number"
-    first=${first:-$number}
-done
-if [ $count -gt 0 ]; then
-    rounds=$(cat rounds.txt 2>/dev/null || echo 0)
-    if [ "$rounds" -lt 2 ] && [ -x start.sh ]; then
-        echo $((rounds + 1)) >rounds.txt
-        echo "no result of $count tasks:$missing; starting them again" >>logs/gather.txt
-        exec ./start.sh
-    fi
-    [ $count -le 8 ] || missing="$missing ..."
-    reason=$(grep 'error: ' "logs/$first.txt" 2>/dev/null | tail -n 1)
-    report 1 "$count of @tasks@ tasks left no result:$missing${reason:+ (the first one: $reason)}; see $PWD/logs, \
-then run the same command again, which does only these"
-fi
-cd @working_folder@ || exit 1
-while IFS= read -r command; do
-    sh -c "$command" </dev/null >@folder@/logs/gather-command.txt 2>&1
-    code=$?
-    cat @folder@/logs/gather-command.txt >>@folder@/logs/gather.txt
-    if [ $code -ne 0 ]; then
-        cd @folder@ && report $code "$(cat logs/gather-command.txt)"
-    fi
-done <@folder@/gather.txt
-cd @folder@ && report 0 "all @tasks@ tasks are done"
-)sh";
 
 std::string command_line(const Words& words) {
     std::string line;
@@ -116,17 +50,62 @@ void check_words(const Words& words) {
                                      "' has a line break, which jobs do not support; rename the file");
 }
 
+void check_all_words(const Job& job) {
+    check_words({job.folder.string(), job.working_folder.string()});
+    for (const JobTask& task : job.tasks) {
+        check_words(task.command);
+        check_words({task.output.string()});
+    }
+    for (const GatherStep& step : job.gather) check_words(step.command);
+    check_words(texts_of(job.outputs));
+}
+
+constexpr std::array<const char*, 5> kFolders = {"results", "checkpoints", "logs", "done", "inputs"};
+
+/// Whether a folder has nothing but what write_job() leaves if it is stopped: no results, and no other files.
+bool is_half_written(const std::filesystem::path& folder) {
+    static const std::set<std::string> kFiles = {
+        "tasks.txt", "outputs.txt", "gather.txt",     "task.sh", "missing.sh", "gather.sh",    "start.sh",
+        "alive.sh",  "array.sh",    "gather-step.sh", "inputs",  "logs",       "template.json"};
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) return false;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_empty_folder = entry.is_directory() && std::filesystem::is_empty(entry.path(), ignored);
+        const bool is_ours = kFiles.count(name) != 0 || name.starts_with(".nusselt-") ||
+                             std::find(kFolders.begin(), kFolders.end(), name) != kFolders.end();
+        if (!is_ours || (entry.is_directory() && !is_empty_folder && name != "inputs")) return false;
+    }
+    return true;
+}
+
+/// The inputs that differ, if all else is the same.
+std::vector<std::string> changed_inputs(const std::string& text, const nlohmann::ordered_json& manifest) {
+    nlohmann::ordered_json other = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (!other.is_object() || !other.contains("inputs") || !other["inputs"].is_object()) return {};
+    const nlohmann::ordered_json inputs = std::exchange(other["inputs"], manifest.at("inputs"));
+    std::vector<std::string> changed;
+    if (other != manifest) return changed;
+    for (const auto& [name, hash] : manifest.at("inputs").items())
+        if (!inputs.contains(name) || inputs[name] != hash) changed.push_back(name);
+    return changed;
+}
+
 /// Whether the folder has the same job already. \throws std::runtime_error if it has something else
-bool has_job(const std::filesystem::path& folder, const std::string& manifest) {
+bool has_job(const std::filesystem::path& folder, const nlohmann::ordered_json& manifest) {
     std::error_code ignored;
     if (!std::filesystem::exists(folder, ignored)) return false;
     std::ifstream stream(folder / "manifest.json", std::ios::binary);
-    if (stream && std::string(std::istreambuf_iterator<char>(stream), {}) == manifest) return true;
-    if (!stream && std::filesystem::is_directory(folder, ignored) &&
-        std::filesystem::is_empty(folder, ignored))
-        return false;
+    if (!stream && is_half_written(folder)) return false;
+    const std::string text = stream ? std::string(std::istreambuf_iterator<char>(stream), {}) : "";
+    if (stream && text == manifest.dump(2) + "\n") return true;
+    const std::string remedy = "; delete it, or choose another folder with --job";
+    if (const std::vector<std::string> changed = changed_inputs(text, manifest); !changed.empty())
+        throw std::runtime_error("since the job in '" + folder.string() + "' was written, " +
+                                 base::listing(changed, "and") + (changed.size() == 1 ? " has" : " have") +
+                                 " changed" + remedy);
     throw std::runtime_error("'" + folder.string() + "' has " + (stream ? "another job" : "other files") +
-                             "; delete it, or choose another folder with --job");
+                             remedy);
 }
 
 } // namespace
@@ -157,20 +136,25 @@ nlohmann::ordered_json manifest_of(const Job& job, const Engine& engine) {
                                    {"folder", job.folder.string()},
                                    {"working_folder", job.working_folder.string()},
                                    {"threads", job.threads},
+                                   {"inputs", job.inputs},
                                    {"tasks", nlohmann::ordered_json::array()},
-                                   {"gather", job.gather},
+                                   {"gather", nlohmann::ordered_json::array()},
                                    {"outputs", texts_of(job.outputs)}};
     for (std::size_t i = 0; i < job.tasks.size(); ++i)
         json["tasks"].push_back(
             {{"number", i + 1}, {"command", job.tasks[i].command}, {"output", job.tasks[i].output.string()}});
+    for (const GatherStep& step : job.gather)
+        json["gather"].push_back({{"command", step.command}, {"inputs", texts_of(step.inputs)}});
     return json;
 }
 
 void write_job(const Job& job, const Engine& engine) {
-    const std::string manifest = manifest_of(job, engine).dump(2) + "\n";
+    const nlohmann::ordered_json manifest = manifest_of(job, engine);
+    check_all_words(job);
+    const std::vector<JobFile> engine_files = engine.files(job);
     const bool goes_on = has_job(job.folder, manifest);
     std::error_code error;
-    for (const char* name : {"results", "checkpoints", "logs", "done"}) {
+    for (const char* name : kFolders) {
         std::filesystem::create_directories(job.folder / name, error);
         if (error)
             throw std::runtime_error("cannot create the folder '" + (job.folder / name).string() +
@@ -181,27 +165,30 @@ void write_job(const Job& job, const Engine& engine) {
     if (goes_on) return;
     std::string tasks, outputs, gather;
     for (const JobTask& task : job.tasks) {
-        check_words(task.command);
         tasks += command_line(task.command) + "\n";
         outputs += task.output.string() + "\n";
     }
-    for (const Words& words : job.gather) {
-        check_words(words);
-        gather += command_line(words) + "\n";
+    for (std::size_t i = 0; i < job.gather.size(); ++i) {
+        const std::filesystem::path list = task_file(job.folder, "inputs", i + 1, ".txt");
+        std::string inputs;
+        for (const std::filesystem::path& path : job.gather[i].inputs) inputs += path.string() + "\n";
+        write_text(list, inputs);
+        gather += command_line(job.gather[i].command) + " --list " + base::shell_word(list.string()) + "\n";
     }
     write_text(job.folder / "tasks.txt", tasks);
     write_text(job.folder / "outputs.txt", outputs);
     write_text(job.folder / "gather.txt", gather);
     const std::string folder = base::shell_word(job.folder.string());
     const std::string working_folder = base::shell_word(job.working_folder.string());
-    write_text(job.folder / "task.sh", filled(kTask, {{"working_folder", working_folder}}));
-    // Slurm runs a copy of this script, so it has the folder's name.
-    write_text(job.folder / "gather.sh", filled(kGather, {{"folder", folder},
-                                                          {"working_folder", working_folder},
-                                                          {"tasks", std::to_string(job.tasks.size())}}));
-    for (const JobFile& file : engine.files(job)) write_text(job.folder / file.name, file.text);
+    write_text(job.folder / "task.sh", filled(kTaskScript, {{"working_folder", working_folder}}));
+    write_text(job.folder / "missing.sh", kMissingScript);
+    write_text(job.folder / "gather.sh",
+               filled(kGatherScript, {{"folder", folder},
+                                      {"working_folder", working_folder},
+                                      {"tasks", std::to_string(job.tasks.size())}}));
+    for (const JobFile& file : engine_files) write_text(job.folder / file.name, file.text);
     // Last: a folder with a manifest is complete.
-    write_text(job.folder / "manifest.json", manifest);
+    write_text(job.folder / "manifest.json", manifest.dump(2) + "\n");
 }
 
 } // namespace nusselt::app

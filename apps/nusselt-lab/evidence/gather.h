@@ -2,6 +2,7 @@
 /// `nusselt-lab gather` puts the results of shards together.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace nusselt::app {
 struct GatherOptions {
     std::string output; ///< "-" is the standard output
     std::vector<std::filesystem::path> shards;
+    std::optional<std::filesystem::path> list; ///< file with the paths of more shards
 };
 
 /// Adds the subcommand. Its callback stores the result of run_gather() in exit_code, which must live until the

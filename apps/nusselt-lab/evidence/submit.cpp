@@ -1,12 +1,16 @@
 #include "submit.h"
 
 #include "apps/common/help.h"
+#include "apps/common/jobs/inputs.h"
+#include "apps/common/jobs/refused_options.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
 #include "base/file_checks.h"
 #include "base/isa.h"
 #include "base/words.h"
 #include "render/names.h"
+#include "scene/import/importers.h"
+#include "scene/model/fingerprint.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -27,11 +31,15 @@ Words joined(Words words, const Words& others) {
     return words;
 }
 
-/// Exit code 1 may mean an error, or a result that breaks a contract. The file with the result tells which.
+/// Exit code 1 may mean an error, or a result that breaks a contract. The file with the result tells which, if it is
+/// from this attempt. Other codes stay as they are: they say whether another attempt is of use.
 Words with_result_as_success(const Words& command, const std::filesystem::path& output) {
     std::string line;
     for (const std::string& word : command) line += base::shell_word(word) + " ";
-    return {"sh", "-c", line + "; test -s " + base::shell_word(output.string())};
+    const std::string file = base::shell_word(output.string());
+    return {"sh", "-c",
+            "rm -f " + file + "; " + line + "; code=$?; [ $code -eq 1 ] && [ -s " + file +
+                " ] && exit 0; exit $code"};
 }
 
 Job make_job(const std::string& kind, const SubmitOptions& options, const std::filesystem::path& output) {
@@ -51,8 +59,10 @@ void add_shard(Job& job, const Words& command, const SubmitShardsOptions& option
 }
 
 int submit_shards(Job job, const SubmitShardsOptions& options) {
-    Words gather = {program_path().string(), "gather", "-o", job.outputs.front().string()};
-    for (const JobTask& task : job.tasks) gather.push_back(task.output.string());
+    add_program_input(job);
+    add_file_inputs(job, options.options);
+    GatherStep gather{{program_path().string(), "gather", "-o", job.outputs.front().string()}, {}};
+    for (const JobTask& task : job.tasks) gather.inputs.push_back(task.output);
     job.gather = {gather};
     return submit_job(std::move(job), options.job);
 }
@@ -64,6 +74,14 @@ void check_names(const std::vector<std::filesystem::path>& scenes) {
         if (!names.insert(scene.stem().string()).second)
             throw std::runtime_error(
                 fmt::format("two scenes have the name '{}'; submit them one by one", scene.stem().string()));
+}
+
+/// Each technique once, or two merges would write one file.
+void check_techniques(const std::vector<std::string>& techniques) {
+    std::set<std::string> names;
+    for (const std::string& technique : techniques)
+        if (!names.insert(technique).second)
+            throw CLI::ValidationError("--technique", fmt::format("'{}' is there twice", technique));
 }
 
 void add_output_option(CLI::App& command, std::filesystem::path& output, const std::string& description,
@@ -99,16 +117,22 @@ void add_shards_command(CLI::App& submit, const std::string& name, const std::st
 int run_submit_images(const SubmitImagesOptions& options) {
     base::check_exist(options.scenes);
     check_names(options.scenes);
+    check_techniques(options.techniques);
+    refuse_options(options.render_options, {{"--technique", "use the option --technique of submit"},
+                                            {"--seed", "use the option --seeds of submit"},
+                                            {"--isa", "all tasks use the one of this machine"}});
     Job job = make_job("images", options.job, options.output);
     job.outputs.clear();
     const std::filesystem::path folder = std::filesystem::absolute(options.output).lexically_normal();
-    std::filesystem::create_directories(folder);
     const std::string program = program_path("nusselt").string();
+    add_program_input(job, "nusselt");
+    add_file_inputs(job, options.render_options);
     for (const std::filesystem::path& scene : options.scenes) {
+        job.inputs["the scene " + scene.string()] = scene::fingerprint(scene::load_scene(scene));
         for (const std::string& technique : options.techniques) {
             const std::filesystem::path image =
                 folder / fmt::format("{}-{}.exr", scene.stem().string(), technique);
-            Words merge = {program, "merge", "-o", image.string()};
+            GatherStep merge{{program, "merge", "-o", image.string()}, {}};
             for (int seed = 0; seed < options.seeds; ++seed) {
                 const std::size_t number = job.tasks.size() + 1;
                 const std::filesystem::path output = task_file(job.folder, "results", number, ".exr");
@@ -120,12 +144,13 @@ int run_submit_images(const SubmitImagesOptions& options) {
                             task_file(job.folder, "checkpoints", number, "").string(), "--quiet", "-o",
                             output.string()});
                 job.tasks.push_back({command, output});
-                merge.push_back(output.string());
+                merge.inputs.push_back(output);
             }
             job.gather.push_back(merge);
             job.outputs.push_back(image);
         }
     }
+    std::filesystem::create_directories(folder);
     return submit_job(std::move(job), options.job);
 }
 

@@ -1,6 +1,7 @@
 #include "merge.h"
 
 #include "apps/common/help.h"
+#include "apps/common/path_list.h"
 #include "apps/common/print_message.h"
 #include "base/file_checks.h"
 #include "base/words.h"
@@ -35,14 +36,16 @@ void setup_merge(CLI::App& app, int& exit_code) {
         ->default_str("the first file of IN, an old form that the next version refuses")
         ->check(check_exr)
         ->group(kOutputGroup);
-    command->add_option("IN", options->inputs, "EXR files to read, one or more")
-        ->required()
+    command->add_option("IN", options->inputs, "EXR files to read, one or more; not required with --list")
         ->check(check_exr);
+    add_list_option(*command, options->list, "EXR files");
     command
         ->add_flag("--partial", options->allows_partial,
                    "Write the image although pixels lack samples because parts are missing")
         ->group(kOutputGroup);
     command->callback([options, &exit_code] {
+        if (options->list && !options->output) throw CLI::RequiredError("--output");
+        if (options->inputs.empty() && !options->list) throw CLI::RequiredError("IN");
         const bool is_old_form = !options->output;
         if (is_old_form) {
             if (options->inputs.size() < 2) throw CLI::RequiredError("--output");
@@ -62,12 +65,12 @@ void setup_merge(CLI::App& app, int& exit_code) {
 }
 
 int run_merge(const MergeOptions& options) {
-    base::check_distinct({*options.output}, options.inputs);
+    const std::vector<std::filesystem::path> inputs = with_listed(options.inputs, options.list);
+    base::check_distinct({*options.output}, inputs);
     image::check_writable_image(*options.output);
-    base::check_exist(options.inputs);
+    base::check_exist(inputs);
     render::Merger merger;
-    for (const std::filesystem::path& path : options.inputs)
-        merger.add(image::read_packed_layers(path), path);
+    for (const std::filesystem::path& path : inputs) merger.add(image::read_packed_layers(path), path);
     const image::LayeredImage result = merger.result();
     const double finished = std::stod(result.metadata.at("finished_fraction"));
     if (finished < 1 && !options.allows_partial)

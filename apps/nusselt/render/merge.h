@@ -14,6 +14,7 @@ namespace nusselt::app {
 struct MergeOptions {
     std::optional<std::filesystem::path> output; ///< without it the first input is meant, as in version 0.1
     std::vector<std::filesystem::path> inputs;
+    std::optional<std::filesystem::path> list; ///< file with the paths of more inputs
     bool allows_partial = false; ///< whether the image may lack pixels
 };
 

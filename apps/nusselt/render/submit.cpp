@@ -4,39 +4,35 @@
 #include "render_settings.h"
 
 #include "apps/common/help.h"
+#include "apps/common/jobs/inputs.h"
+#include "apps/common/jobs/refused_options.h"
 #include "apps/common/validators.h"
+#include "apps/nusselt/scene/camera.h"
+#include "apps/nusselt/scene/lights.h"
 #include "base/file_checks.h"
 #include "base/isa.h"
 #include "image/io.h"
 #include "render/settings.h"
+#include "scene/model/fingerprint.h"
+#include "scene/rig/camera_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace nusselt::app {
 
 namespace {
 
-/// What a job decides itself.
-void refuse_options_of_jobs(const RenderOptions& options) {
-    const auto refuse = [](const char* name, const char* instead) {
-        throw CLI::ValidationError(name, std::string("not supported behind --: ") + instead);
-    };
-    if (!options.outputs.empty()) refuse("--output", "use the option -o of submit");
-    if (options.part) refuse("--part", "use the option --parts of submit");
-    if (options.checkpoint) refuse("--checkpoint", "each part has one");
-    if (options.threads) refuse("--threads", "use the option --threads of submit");
-    if (options.json) refuse("--json", "each part would write the same file");
-    if (options.display_server) refuse("--display-server", "parts run on other machines");
-    if (options.backend != "cpu") refuse("--backend", "parts are rendered on the CPU");
-}
-
 /// Reads the options as `nusselt render` does, so that mistakes are found before thousands of tasks make them.
 /// \throws CLI::ParseError
 RenderOptions read_render_options(const SubmitRenderOptions& options) {
+    refuse_options(options.render_options, {{"--part", "use the option --parts of submit"}});
     RenderOptions render;
     CLI::App parser("render");
     parser.option_defaults()->always_capture_default();
@@ -52,13 +48,19 @@ RenderOptions read_render_options(const SubmitRenderOptions& options) {
                                                                 ? std::string(error.what())
                                                                 : "unknown '" + extras.front() + "'");
     }
-    refuse_options_of_jobs(render);
     // The interval needs the checkpoint that parts have.
     render.part = fmt::format("1/{}", options.parts.value());
     render.checkpoint = "checkpoint";
     render.outputs = {options.output};
     check_combination(render);
     return render;
+}
+
+/// What the hash of all that an image depends on is, as in its metadata.
+std::string fingerprint_of(const RenderOptions& options) {
+    scene::Scene scene = load_scene(options.scene, options.rigs);
+    if (options.camera) apply_camera(scene::read_camera_file(*options.camera), scene);
+    return scene::fingerprint(scene);
 }
 
 } // namespace
@@ -74,9 +76,11 @@ int run_submit(const SubmitRenderOptions& options) {
         job.name.begin(), job.name.end(), [](unsigned char c) { return std::isspace(c) != 0; }, '_');
     job.folder = job_folder(options.job, options.output);
     job.outputs = {std::filesystem::absolute(options.output)};
+    add_program_input(job);
+    job.inputs["the scene " + options.scene.string()] = fingerprint_of(render);
     const std::string program = program_path().string();
     const std::string scene = std::filesystem::absolute(options.scene).string();
-    Words merge = {program, "merge", "-o", job.outputs.front().string()};
+    std::vector<std::filesystem::path> inputs;
     const int parts = options.parts.value();
     for (int part = 1; part <= parts; ++part) {
         const auto number = static_cast<std::size_t>(part);
@@ -90,21 +94,20 @@ int run_submit(const SubmitRenderOptions& options) {
                                        task_file(job.folder, "checkpoints", number, "").string(), "--quiet",
                                        "-o", output.string()});
         job.tasks.push_back({std::move(command), output});
-        merge.push_back(output.string());
+        inputs.push_back(output);
     }
-    job.gather = {merge};
+    job.gather = {{{program, "merge", "-o", job.outputs.front().string()}, std::move(inputs)}};
     return submit_job(std::move(job), options.job);
 }
 
 void setup_submit(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<SubmitRenderOptions>();
     CLI::App* command = app.add_subcommand(
-        "submit", "Divide a rendering into parts for many machines, and merge them. The image has the bits "
-                  "of a single run. The job is "
-                  "a folder with all that the engine needs: tasks that fail, are killed or lose their "
-                  "machine go on where their "
-                  "checkpoint ends, and the same command again does only what is missing.\n"
-                  "  nusselt submit scene.pbrt --parts 8 --engine slurm --run -o image.exr -- --spp 64");
+        "submit",
+        "Divide a rendering into parts for many machines, and merge them. The image has the bits of a single "
+        "run. The job is a folder with all that the engine needs: tasks that fail, are killed or lose their "
+        "machine go on where their checkpoint ends, and the same command again does only what is missing.\n"
+        "  nusselt submit scene.pbrt --parts 8 --engine slurm --run -o image.exr -- --spp 64");
     command->add_option("SCENE", options->scene, "Scene file in pbrt syntax, version 3 or 4")->required();
     command->add_option("OPTIONS", options->render_options, "Options of `nusselt render`, behind --");
     command->add_option("-o,--output", options->output, "EXR file to write")
