@@ -2,18 +2,20 @@
 """Simulates a film on many cores: tasks with checkpoints, failures of cores, stragglers, shared storage and merges.
 docs/scaling.md has the results. `farm.py` prints its table; `farm.py --help` lists what can be changed.
 
-A core fails at random, with the same rate at any time. A failure ends the task of the core, which goes on where its
-last checkpoint ends once the engine has waited and a slot is free. Storage serves requests one after the other at its
-full bandwidth. Merging is a task of one core per frame, and begins when all parts of the frame are there."""
+A core fails at random, with the same rate at any time while it renders; in the few seconds of starting, reading,
+writing and merging, nothing fails. A failure ends the task of the core, which goes on where its last checkpoint ends once the
+engine has waited and a slot is free. Storage serves requests one after the other at its full bandwidth, in the order in
+which they are made. A merge takes a slot for one core of work per frame, and can begin when all parts of the frame are
+there. Of all tasks that can begin, requeued ones come first, then merges, then new parts in the order of frames."""
 
 import argparse
 import dataclasses
 import heapq
 import math
 import random
-import sys
 
 MONTH = 30 * 24 * 3600  # [s]
+REQUEUED, MERGE = 0, 1  # what comes before new parts, in this order
 
 
 @dataclasses.dataclass
@@ -45,6 +47,8 @@ class Outcome:
     storage_busy: float = 0.0  # [s]
     merge_seconds: float = 0.0  # core seconds
     starts: int = 0
+    first_merge: float = math.inf  # when it begins
+    last_new_part: float = 0.0  # when it begins
 
     def efficiency(self, farm):
         return self.useful / (farm.cores * self.makespan)
@@ -89,64 +93,70 @@ def simulate(farm, seed=1, stretch=stretch_until_failure, factor=None):
     mean = farm.frame_work / farm.parts / farm.threads
     storage, outcome = Storage(farm.storage), Outcome()
     missing = [farm.parts] * farm.frames
-    # What may start: (time from which on, kind, frame, seconds of rendering left). Merges come before new frames, so
-    # that frames do not pile up; requeued tasks wait.
-    render, merge = 0, 1
-    ready = [(0.0, i // farm.parts, render, mean * factor(rng)) for i in range(farm.frames * farm.parts)]
-    heapq.heapify(ready)
-    free = slots
-    events = []  # (time, number, kind, frame, seconds left)
-    count, now = 0, 0.0
+    lengths = [mean * factor(rng) for _ in range(farm.frames * farm.parts)]
+    new_parts = 0  # that have begun
+    ready = []  # what else can begin: (step of the order above, frame, number, seconds of rendering left)
+    events = []  # (time, number, what happens, frame, seconds left)
+    free, count, now = slots, 0, 0.0
 
-    def push(time, kind, frame, left):
+    def push(time, event, frame, left=0.0):
         nonlocal count
         count += 1
-        heapq.heappush(events, (time, count, kind, frame, left))
+        heapq.heappush(events, (time, count, event, frame, left))
 
-    def begin(frame, kind, left):
-        outcome.starts += 1
-        if kind == merge:
-            if farm.parts == 1:
-                push(now, merge, frame, 0.0)
-                return
-            seconds = farm.frame_bytes / farm.merge_rate
-            outcome.merge_seconds += seconds
-            read = storage.serve(now, farm.frame_bytes)
-            push(storage.serve(max(read, now + seconds), farm.frame_bytes), merge, frame, 0.0)
-            return
+    def make_ready(order, frame, left=0.0):
+        nonlocal count
+        count += 1
+        heapq.heappush(ready, (order, frame, count, left))
+
+    def render(frame, left):
         begun = max(storage.serve(now, farm.scene_bytes), now + farm.start)
         seconds, kept, failed = stretch(left, farm, rate, rng)
         outcome.useful += farm.threads * kept
-        if failed:
-            outcome.failures += 1
-            push(begun + seconds, render, frame, left - kept)
-        else:
-            # Its part is written once the storage has time for it. The order of requests follows the order of starts.
-            push(begun + seconds, -1, frame, 0.0)
+        outcome.failures += failed
+        push(begun + seconds, "failed" if failed else "rendered", frame, left - kept)
 
-    while ready or events:
-        while free > 0 and ready and ready[0][0] <= now:
-            _, frame, kind, left = heapq.heappop(ready)
+    def begin_next():
+        nonlocal new_parts
+        outcome.starts += 1
+        if not ready:
+            outcome.last_new_part = now
+            frame, left = new_parts // farm.parts, lengths[new_parts]
+            new_parts += 1
+            render(frame, left)
+            return
+        order, frame, _, left = heapq.heappop(ready)
+        if order == REQUEUED:
+            render(frame, left)
+            return
+        outcome.first_merge = min(outcome.first_merge, now)
+        seconds = farm.frame_bytes / farm.merge_rate
+        outcome.merge_seconds += seconds
+        push(max(storage.serve(now, farm.frame_bytes), now + seconds), "merged", frame)
+
+    while True:
+        while free > 0 and (ready or new_parts < len(lengths)):
             free -= 1
-            begin(frame, kind, left)
+            begin_next()
         if not events:
-            now = max(now, ready[0][0])
-            continue
-        next_ready = ready[0][0] if ready and free > 0 else math.inf
-        if next_ready < events[0][0]:
-            now = next_ready
-            continue
-        now, _, kind, frame, left = heapq.heappop(events)
-        if kind == -1:
-            push(storage.serve(now, farm.frame_bytes / farm.parts), -2, frame, 0.0)
-            continue
-        free += 1
-        if kind == -2:
+            break
+        now, _, event, frame, left = heapq.heappop(events)
+        if event == "rendered":
+            push(storage.serve(now, farm.frame_bytes / farm.parts), "part", frame)
+        elif event == "part":
+            free += 1
             missing[frame] -= 1
-            if missing[frame] == 0:
-                heapq.heappush(ready, (now, -1, merge, 0.0) if farm.parts == 1 else (now, frame, merge, 0.0))
-        elif kind == render:
-            heapq.heappush(ready, (now + farm.requeue_delay, frame, render, left))
+            if missing[frame] == 0 and farm.parts > 1:
+                make_ready(MERGE, frame)
+        elif event == "merged":
+            push(storage.serve(now, farm.frame_bytes), "frame", frame)
+        elif event == "frame":
+            free += 1
+        elif event == "failed":
+            free += 1
+            push(now + farm.requeue_delay, "requeued", frame, left)
+        else:
+            make_ready(REQUEUED, frame, left)
     outcome.makespan, outcome.storage_busy = now, storage.busy
     return outcome
 
@@ -180,6 +190,13 @@ def rows():
     yield "frames of ten times the work, 16 parts", change(frame_work=10 * base.frame_work, parts=16)
 
 
+def row(name, farm, outcome):
+    """A row of the table in docs/scaling.md."""
+    return (f"| {name} | {outcome.makespan:.0f} | {outcome.efficiency(farm):.3f} | {outcome.failures} | "
+            f"{3600 * outcome.failures / outcome.makespan:.0f} | {outcome.starts / outcome.makespan:.0f} | "
+            f"{100 * outcome.storage_busy / outcome.makespan:.0f} % |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     for field in dataclasses.fields(Farm):
@@ -192,12 +209,7 @@ def main():
     print("| case | time [s] | efficiency | failures | per hour | starts per second | storage busy |")
     print("|---|---|---|---|---|---|---|")
     for name, farm in cases:
-        outcome = simulate(farm, seed)
-        hours = outcome.makespan / 3600
-        print(f"| {name} | {outcome.makespan:.0f} | {outcome.efficiency(farm):.3f} | {outcome.failures} | "
-              f"{outcome.failures / hours:.0f} | {outcome.starts / outcome.makespan:.0f} | "
-              f"{100 * outcome.storage_busy / outcome.makespan:.0f} % |")
-        sys.stdout.flush()
+        print(row(name, farm, simulate(farm, seed)), flush=True)
 
 
 if __name__ == "__main__":

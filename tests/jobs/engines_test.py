@@ -340,7 +340,8 @@ class EnginesTest(unittest.TestCase):
 
     def test_mistakes_in_sweeps_are_found_first(self):
         images = [LAB, "submit", "images", "--scene", SCENE, "--engine", "parallel", "-o", "sweep"]
-        for options in (["--seed", "3"], ["--technique=area"], ["--isa", "sse"], ["-o", "x.exr"], ["--backend", "vulkan"]):
+        for options in (["--seed", "3"], ["--technique=area"], ["--isa", "sse"], ["-o", "x.exr"],
+                        ["--backend", "vulkan"]):
             outcome = self.run_in(*images, "--technique", "area", "--", *options)
             self.expect_error(outcome, "not supported behind --", 2)
         self.expect_error(self.run_in(*images, "--technique", "area", "--technique", "area"), "is there twice", 2)

@@ -79,6 +79,30 @@ class FarmTest(unittest.TestCase):
         self.assertGreaterEqual(outcome.makespan, outcome.storage_busy)
         self.assertLess(outcome.makespan, 1.05 * outcome.storage_busy)
 
+    def test_merges_come_before_new_parts(self):
+        # 16 slots: the first two frames are rendered after 100 s, the last two begin after 400 s.
+        outcome = farm.simulate(PLAIN)
+        self.assertAlmostEqual(outcome.first_merge, 100)
+        self.assertAlmostEqual(outcome.last_new_part, 400)
+        self.assertLess(farm.simulate(farm.Farm(frames=1000)).first_merge, 400)
+
+    def test_storage_serves_in_the_order_of_requests(self):
+        """Two slots, 90 s for a part, 100 s for a merge; 1 s to read the scene or a frame or to write a frame. Parts 1
+        and 2 are written at 91.5 and 93; part 3, which begins at 91.5, is written at 183 while frame 1 is merged; part 4
+        at 274.5, and then frame 2 is merged."""
+        settings = dataclasses.replace(PLAIN, cores=8, frames=2, parts=2, frame_work=720.0, frame_bytes=1e9,
+                                       scene_bytes=1e9, storage=1e9, merge_rate=1e7)
+        outcome = farm.simulate(settings)
+        self.assertAlmostEqual(outcome.last_new_part, 183)
+        self.assertAlmostEqual(outcome.makespan, 375.5)
+
+    def test_the_page_has_the_numbers_of_the_simulation(self):
+        settings = farm.Farm()
+        outcome = farm.simulate(settings)
+        self.assertGreaterEqual(outcome.efficiency(settings), 0.9)
+        page = pathlib.Path(__file__).resolve().parents[2] / "docs/scaling.md"
+        self.assertIn(farm.row("base", settings, outcome), page.read_text().splitlines())
+
     def test_failures_are_as_frequent_as_their_rate(self):
         settings = dataclasses.replace(PLAIN, frames=1000, failures_per_core=1e-4)
         outcome = farm.simulate(settings)

@@ -36,7 +36,8 @@ trap cancel EXIT
 trap 'exit 143' TERM
 trap 'exit 130' INT
 submit() {
-    id=$(sbatch --parsable --requeue --job-name=@name@ --chdir="$PWD" --open-mode=append "$@")
+    # Scripts have logs of their own: Slurm reads % and \ in the names of its logs, and in those of their folders.
+    id=$(sbatch --parsable --requeue --job-name=@name@ --chdir=/ --output=/dev/null "$@")
     id=${id%%;*}
     [ -n "$id" ]
     echo "$id" >>engine-jobs.txt
@@ -53,27 +54,29 @@ while [ $first -lt @tasks@ ]; do
         }
         END { add() }' missing.txt)
     if [ -n "$list" ]; then
-        submit --cpus-per-task=@threads@ --array="$list" --output=logs/array-%a.txt array.sh $first
+        submit --cpus-per-task=@threads@ --array="$list" array.sh $first
         arrays=$arrays:$id
     fi
     first=$((first + @most@))
 done
-submit ${arrays:+--dependency=afterany$arrays} --output=logs/gather-step.txt gather-step.sh
+submit ${arrays:+--dependency=afterany$arrays} gather-step.sh
 echo "$id" >engine-gather.txt
 trap - EXIT TERM INT
 )sh";
 
-// Without the folder, Slurm would run these in /tmp, where anybody could have put a task.sh.
+// With the name of the folder, because Slurm runs copies elsewhere, and in /tmp if a machine lacks their folder, where
+// anybody could have put a task.sh.
 constexpr const char* kArray = R"sh(#!/bin/sh
 # One task of an array. Slurm runs a copy of this file.
-exec @folder@/task.sh $(($1 + SLURM_ARRAY_TASK_ID))
+number=$(($1 + SLURM_ARRAY_TASK_ID))
+exec @folder@/task.sh $number >>@folder@/logs/$number.txt 2>&1
 )sh";
 
 // Slurm may start it a second time, after a failure of its machine. If it has handed the job on by then, the new gathering
 // step has it; if it was interrupted before, it starts the tasks again.
 constexpr const char* kGatherStep = R"sh(#!/bin/sh
 # The step after all arrays. Slurm runs a copy of this file.
-cd @folder@ || exit 1
+cd @folder@ && exec >>logs/gather.txt 2>&1 || exit 1
 for attempt in 1 2 3 4 5 6 7 8 9 10; do
     [ "$(cat engine-gather.txt 2>/dev/null)" != "$SLURM_JOB_ID" ] || exec ./gather.sh
     [ "${SLURM_RESTART_COUNT:-0}" -eq 0 ] || [ -s engine-gather.txt ] || exec ./gather.sh
