@@ -104,7 +104,7 @@ void check_content(const image::LayeredImage& image, const std::filesystem::path
     try {
         check_content_hash(image);
     } catch (const std::runtime_error& error) {
-        refuse(path, std::string(error.what()) + "; of a part of a job, delete the file");
+        refuse(path, std::string(error.what()) + " (in a job: delete this file, then submit it again)");
     }
 }
 

@@ -5,6 +5,7 @@ The last lines of `test_eight_parts` are the row of docs/scaling.md."""
 
 import os
 import pathlib
+import shlex
 import signal
 import subprocess
 import sys
@@ -111,7 +112,7 @@ class SlurmTest(unittest.TestCase):
         """How long a job that is requeued waits until it starts again."""
         started = self.folder / "started"
         job = self.cluster.output("sbatch", "--parsable", "--requeue", "--output=/dev/null", "--wrap",
-                                  f"echo >>'{started}'; sleep 600")
+                                  f"echo >>{shlex.quote(str(started))}; sleep 600")
         starts = lambda: len(started.read_text()) if started.exists() else 0
         cluster.wait_for(lambda: starts() == 1, 60, "a start")
         begin = time.monotonic()
