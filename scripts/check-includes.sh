@@ -38,7 +38,7 @@ BEGIN {
     # The scene: renderers see its model, which does not depend on formats. Importers describe the content of a file, the
     # builder makes the model from it, rigs change it.
     allow("src/scene/input", "src/base")
-    allow("src/scene/model", "library src/scene/input")
+    allow("src/scene/model", "library src/base src/scene/input")
     allow("src/scene/colour", "src/scene/input src/scene/model")
     allow("src/scene/sky", "src/scene/model src/scene/colour")
     allow("src/scene/build", "library src/image src/scene/input src/scene/model src/scene/colour src/scene/sky")

@@ -15,7 +15,7 @@ struct MergeOptions {
     std::optional<std::filesystem::path> output; ///< without it the first input is meant, as in version 0.1
     std::vector<std::filesystem::path> inputs;
     std::optional<std::filesystem::path> list; ///< file with the paths of more inputs
-    bool allows_partial = false; ///< whether the image may lack pixels
+    bool allows_partial = false;               ///< whether the image may lack pixels
 };
 
 /// Adds the subcommand. Its callback stores the result of run_merge() in exit_code, which must live until the
