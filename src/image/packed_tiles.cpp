@@ -26,6 +26,9 @@ constexpr std::int64_t kMaxValueCount = std::int64_t(1) << 30;
 /// not take much memory.
 constexpr std::int64_t kMaxExpansion = std::int64_t(1) << 14;
 
+/// Behind the hash under kPackedHashKey, if unpack() has added the layer of samples.
+constexpr const char* kAddedSamples = " without samples";
+
 [[noreturn]] void fail_as_damaged() {
     throw std::runtime_error(
         "its list of tiles is damaged, or another program has changed its size; use the file as "
@@ -137,6 +140,9 @@ std::optional<PackedTiles> packed_tiles_of(const LayeredImage& file) {
 
 LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles) {
     const std::vector<PixelRun> runs = tiles.runs();
+    const auto hash = image.metadata.extract(kPackedHashKey);
+    if (hash && hash.mapped().ends_with(kAddedSamples))
+        std::erase_if(image.layers, [](const Layer& layer) { return layer.name == kSamplesLayer; });
     image.data = tiles.window();
     const std::size_t pixels = std::size_t(image.data.width) * std::size_t(image.data.height);
     for (Layer& layer : image.layers) {
@@ -148,24 +154,29 @@ LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles) {
         layer.data = std::move(packed);
     }
     image.metadata[kTilesKey] = tiles.text();
-    add_content_hash(image);
+    if (hash)
+        image.metadata[kContentHashKey] = hash.mapped().substr(0, hash.mapped().find(' '));
+    else
+        add_content_hash(image);
     return std::move(image);
 }
 
 namespace {
 
 /// Adds the number of samples as a layer, in the order of names, if the file has it among its metadata only.
-void add_samples_layer(LayeredImage& file) {
+/// \returns whether it has
+bool add_samples_layer(LayeredImage& file) {
     const auto text = file.metadata.find(kSamplesLayer);
-    if (text == file.metadata.end() || find_layer(file, kSamplesLayer) != nullptr) return;
+    if (text == file.metadata.end() || find_layer(file, kSamplesLayer) != nullptr) return false;
     float count = 0;
     std::from_chars(text->second.data(), text->second.data() + text->second.size(), count);
-    if (!(count > 0)) return;
+    if (!(count > 0)) return false;
     const bool is_header = !file.layers.empty() && file.layers.front().data.empty();
     const std::size_t pixels = std::size_t(file.data.width) * std::size_t(file.data.height);
     const auto after = std::find_if(file.layers.begin(), file.layers.end(),
                                     [](const Layer& layer) { return layer.name > kSamplesLayer; });
     file.layers.insert(after, {kSamplesLayer, {"Y"}, std::vector<float>(is_header ? 0 : pixels, count)});
+    return true;
 }
 
 /// Puts the pixels of all layers to their places.
@@ -206,7 +217,9 @@ LayeredImage unpack(LayeredImage&& file) {
     const bool has_data = std::any_of(file.layers.begin(), file.layers.end(),
                                       [](const Layer& layer) { return !layer.data.empty(); });
     if (has_data) check_content_hash(file);
-    add_samples_layer(file);
+    const bool has_added = add_samples_layer(file);
+    if (const auto hash = file.metadata.extract(kContentHashKey))
+        file.metadata[kPackedHashKey] = hash.mapped() + (has_added ? kAddedSamples : "");
     return placed(std::move(file), *tiles);
 }
 

@@ -29,6 +29,10 @@ inline constexpr const char* kTilesKey = "tiles";
 /// the same name then have the number.
 inline constexpr const char* kSamplesLayer = "samples";
 
+/// The key of the metadata with which unpack() keeps the hash of a file: pack() writes the same file again if nothing has
+/// changed, and one that is known as changed otherwise.
+inline constexpr const char* kPackedHashKey = "packed_hash";
+
 /// Pixels in one row of both images, counted row by row.
 struct PixelRun {
     std::size_t packed; ///< first pixel among those that are stored
@@ -70,7 +74,8 @@ private:
 /// \throws std::runtime_error if the window of the file contradicts its metadata
 [[nodiscard]] std::optional<PackedTiles> packed_tiles_of(const LayeredImage& file);
 
-/// Keeps the chosen tiles only, and adds the hash of what is left (content_hash.h).
+/// Keeps the chosen tiles only, and adds the hash of what is left (content_hash.h). Of an image from unpack(), the hash is
+/// the one that the file had.
 /// \param image is moved from; its window is the one of `tiles`
 [[nodiscard]] LayeredImage pack(LayeredImage&& image, const PackedTiles& tiles);
 
@@ -78,7 +83,7 @@ private:
 [[nodiscard]] LayeredImage read_packed_layers(const std::filesystem::path& path);
 
 /// Puts tiles of a file back to their places. The rest is zero, and has zero samples in the layer kSamplesLayer. The hash
-/// is compared and goes with the list of tiles: it was that of the file. Files without packed tiles stay as they are.
+/// is compared, and moves to kPackedHashKey: it is not that of the whole image. Files without packed tiles stay as they are.
 /// \param file with all layers, or with none of their data
 /// \throws std::runtime_error if the metadata or pixels are damaged, or the whole image has more than 2^30 values or 2^14
 ///                            times the pixels of the file

@@ -27,7 +27,8 @@ const std::set<std::string> kFreeKeys = {"seed",
                                          "render_seconds",
                                          "finished_fraction",
                                          image::kTilesKey,
-                                         image::kContentHashKey};
+                                         image::kContentHashKey,
+                                         image::kPackedHashKey};
 
 /// Doubles represent whole numbers exactly up to this one.
 constexpr double kMaxSampleCount = 0x1p53;
@@ -252,6 +253,7 @@ void Merger::State::begin(const image::LayeredImage& first, const image::Window&
     image.metadata = first.metadata;
     image.metadata.erase(image::kTilesKey);
     image.metadata.erase(image::kContentHashKey);
+    image.metadata.erase(image::kPackedHashKey);
     image.foreign_metadata = first.foreign_metadata;
     samples.resize(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
     for (const image::Layer& layer : first.layers) {

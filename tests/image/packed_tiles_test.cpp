@@ -1,5 +1,6 @@
 /// Files that hold some tiles of an image: these tiles and no more, readable by all programs, whole again for ours.
 
+#include "image/content_hash.h"
 #include "image/io.h"
 #include "image/packed_tiles.h"
 #include "image_fixture.h"
@@ -59,6 +60,7 @@ TEST_F(PackedTilesTest, ReadersPutTilesBackToTheirPlaces) {
         const LayeredImage read = read_layers(in_folder("part.exr"));
         EXPECT_EQ(read.data, window);
         EXPECT_EQ(read.display, expected.display);
+        expected.metadata[kPackedHashKey] = read.metadata.at(kPackedHashKey);
         EXPECT_EQ(read.metadata, expected.metadata);
         // The layer of samples tells pixels that are not there from black ones.
         ASSERT_EQ(read.layers.size(), 3u);
@@ -146,6 +148,25 @@ TEST_F(PackedTilesTest, DamagedListsAreErrorsThatNameTheFile) {
             EXPECT_NE(problem, "") << text;
         EXPECT_NE(error_of([&] { (void)read_image(in_folder("part.exr")); }).find("part.exr"),
                   std::string::npos);
+    }
+}
+
+TEST_F(PackedTilesTest, PackedAgainAreTheSameFileOrOneThatIsKnownAsChanged) {
+    const Window window = {5, 21, 150, 70};
+    const PackedTiles tiles = every_third(window);
+    LayeredImage with_samples = make_whole(window);
+    with_samples.layers.push_back({kSamplesLayer, {"Y"}, std::vector<float>(150 * 70, 2)});
+    for (const LayeredImage& whole : {make_whole(window), with_samples}) {
+        const LayeredImage part = pack(LayeredImage(whole), tiles);
+        const LayeredImage again = pack(unpack(LayeredImage(part)), tiles);
+        EXPECT_EQ(again.metadata, part.metadata);
+        ASSERT_EQ(again.layers.size(), part.layers.size());
+        for (std::size_t i = 0; i < part.layers.size(); ++i)
+            EXPECT_EQ(again.layers[i].data, part.layers[i].data);
+        check_content_hash(again);
+        LayeredImage changed = unpack(LayeredImage(part));
+        for (float& value : changed.layers[0].data) value *= 2;
+        EXPECT_NE(error_of([&] { check_content_hash(pack(std::move(changed), tiles)); }), "");
     }
 }
 

@@ -122,6 +122,11 @@ class EnginesTest(unittest.TestCase):
         self.expect_success(self.run_in(NUSSELT, "render", SCENE, *options[:4], "-q", "-o", "whole.exr"))
         self.expect_same("image.exr", "whole.exr")
 
+    def test_a_service_may_ignore_the_end_of_its_children(self):
+        ignore = lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        self.expect_success(self.run_in(NUSSELT, "submit", SCENE, "--parts", 2, "--engine", "parallel", "-o",
+                                        "image.exr", "--run", "--", *OPTIONS, preexec_fn=ignore))
+
     def test_templates_are_printed(self):
         outcome = self.submit(engine="print")
         self.expect_success(outcome)
@@ -329,7 +334,8 @@ class EnginesTest(unittest.TestCase):
 
     def test_sweeps_of_images(self):
         outcome = self.run_in(LAB, "submit", "images", "--scene", SCENE, "--technique", "area", "--technique",
-                              "solid_angle", "--seeds", 2, "--engine", "parallel", "--run", "-o", "sweep", "--", *OPTIONS)
+                              "solid_angle", "--seeds", 2, "--engine", "parallel", "--run", "-o", "sweep", "--",
+                              *OPTIONS)
         self.expect_success(outcome)
         for technique in ("area", "solid_angle"):
             for seed in (0, 1):

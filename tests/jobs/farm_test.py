@@ -88,8 +88,8 @@ class FarmTest(unittest.TestCase):
 
     def test_storage_serves_in_the_order_of_requests(self):
         """Two slots, 90 s for a part, 100 s for a merge; 1 s to read the scene or a frame or to write a frame. Parts 1
-        and 2 are written at 91.5 and 93; part 3, which begins at 91.5, is written at 183 while frame 1 is merged; part 4
-        at 274.5, and then frame 2 is merged."""
+        and 2 are written at 91.5 and 93; part 3, which begins at 91.5, is written at 183 while frame 1 is merged;
+        part 4 at 274.5, and then frame 2 is merged."""
         settings = dataclasses.replace(PLAIN, cores=8, frames=2, parts=2, frame_work=720.0, frame_bytes=1e9,
                                        scene_bytes=1e9, storage=1e9, merge_rate=1e7)
         outcome = farm.simulate(settings)

@@ -131,12 +131,16 @@ class SlurmTest(unittest.TestCase):
         self.kill_task(1)
         self.wait_for_checkpoint(3)
         requeued = f"{self.array()}_3"
+        finished = {number: (self.job / f"results/{number}.exr").stat().st_mtime_ns for number in range(1, 9)
+                    if (self.job / f"done/{number}").exists()}
         self.cluster.output("scontrol", "requeue", requeued)
         code, out, err = self.finish(process)
         wall = time.monotonic() - begin
         self.assertEqual(code, 0, err + str(self.logs()))
         self.assertEqual(out, str(self.folder / "image.exr") + "\n")
         self.assertIn("no result of 1 tasks: 1; starting them again", self.logs()["gather.txt"])
+        for number, changed in finished.items():
+            self.assertEqual((self.job / f"results/{number}.exr").stat().st_mtime_ns, changed, number)
         self.assertIn("Restarts=1", self.cluster.output("scontrol", "show", "job", requeued))
         ideal = self.render(size, 2)
         self.expect_bits_of_one_run(size)

@@ -77,7 +77,6 @@ private:
         int status = 0;
         const pid_t found = ::waitpid(pid_, &status, options);
         if (found == pid_) set_code(status);
-        // Who ignores SIGCHLD, and has passed that on, never hears of the exit code.
         if (found < 0 && errno != EINTR) code_ = kUnknownCode;
     }
     void set_code(int status) { code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
@@ -191,6 +190,8 @@ int report(const Result& result) {
 int run_job(const Job& job, const std::function<void(double)>& progress,
             const std::function<void(const std::string&)>& notify) {
     const InterruptGuard guard("\nstopping; a second Ctrl-C ends the program at once\n");
+    // Services may ignore it, and pass that on; then nobody hears of exit codes.
+    std::signal(SIGCHLD, SIG_DFL);
     const base::Stopwatch stopwatch;
     std::optional<Script> starter;
     const std::filesystem::path start_log = job.folder / "logs/start.txt";

@@ -6,6 +6,7 @@
 #include "image/content_hash.h"
 #include "image/io.h"
 #include "image/layers.h"
+#include "image/packed_tiles.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -64,6 +65,7 @@ void convert_exr_to_exr(const ConvertOptions& options) {
     file.layers.push_back(image::color_layer(std::move(picture)));
     file.metadata[image::kConvertedKey] = "yes";
     file.metadata.erase(image::kContentHashKey);
+    file.metadata.erase(image::kPackedHashKey);
     image::write_layers(*options.output, file);
 }
 
