@@ -1,0 +1,328 @@
+#pragma once
+/// Sampling of the part of an elliptic cone above a horizon that cuts it, in proportion to the cosine at the surface.
+///
+/// Derived here. A ray sweeps around a pole p on the horizon, in the middle of the horizon's arc in the cone. At an angle
+/// gamma from the pole the cosine times the solid angle is sin^2(gamma) dgamma times the measure of the sweep, so that gamma
+/// follows the inverse cycloid, up to the angle of the rim. The sweep is described by the point of the rim R that it meets:
+///
+///     measure = E(gamma) (n . R) (p . R x dR),  E = (2 gamma - sin(2 gamma)) / (4 sin^3(gamma)).
+///
+/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Three maps
+/// of the rim keep it smooth for large ones: the tangents of angles around the axis are scaled by (b1 / a1)^(3/4), half-way
+/// between the disk of the cone and the ellipse that is its projection along the axis, and those of half-angles from the highest
+/// point by 1 / cos(gamma / 2) there, because rays that almost reach the antipode of the pole turn quickly. 16 places of the
+/// result give its distribution with a backward error of 1e-5 at most for ordinary lights (docs/techniques/elliptic_cone.md).
+
+#include <nusselt/geometry/elliptic_cone.h>
+#include <nusselt/sampling/cycloid.h>
+#include <nusselt/sampling/rim_distribution.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// A direction in an elliptic cone.
+template <class Real>
+struct ConeSample {
+    Vec3<Real> wi;   ///< unit
+    Vec2<Real> disk; ///< the point of the disk of the cone
+};
+
+/// \tparam Real float, double, long double or a pack.
+///
+/// The horizon is z = 0. Valid for cones that the horizon cuts; others give a measure of 0 or any density.
+template <class Real>
+class ConeSweep {
+    using Scalar = scalar_t<Real>;
+    using Distribution = RimDistribution<Real>;
+
+public:
+    ConeSweep() = default;
+
+    /// \param cone with a visible part above the horizon.
+    NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept {
+        // A half-space is a cone with a large angle; so nothing is infinite.
+        constexpr Scalar kNarrowest = 8 * std::numeric_limits<Scalar>::epsilon();
+        a_ = cone.a;
+        b_ = cone.b;
+        c_ = max(cone.c, Real(kNarrowest));
+
+        // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
+        const Real na = cone.e1.z * a_, nb = cone.e2.z * b_, nc = cone.e3.z * c_;
+        const Real k = detail::hypotenuse(na, nb);
+        const auto cut = (abs(nc) < k) & (a_ > Real(0)) & (b_ > Real(0));
+        const Real inverse_k = Real(1) / select(cut, k, Real(1));
+        up_ = {select(cut, na * inverse_k, Real(1)), select(cut, nb * inverse_k, Real(0))};
+        const Real lower = (k - nc) * inverse_k, upper = (k + nc) * inverse_k; // 1 - h0 and 1 + h0
+        height_ = nc * inverse_k;
+        const Real half_arc = sqrt(max(lower * upper, Real(0)));
+        squared_tangent_ = upper / max(lower, Real(std::numeric_limits<Scalar>::epsilon() / 16));
+
+        // Find the pole, where the bisector of both ends of the horizon's arc meets it.
+        const Vec3<Real> across{-a_ * up_.y, b_ * up_.x, Real(0)};
+        const Vec3<Real> upwards{a_ * up_.x, b_ * up_.y, Real(0)};
+        const Vec3<Real> middle{-height_ * upwards.x, -height_ * upwards.y, c_};
+        const Real to_ends = length(middle + half_arc * across) + length(middle - half_arc * across);
+        const Real tilt = height_ * ((a_ - b_) * (a_ + b_)) * (up_.x * up_.y);
+        const Real relative = half_arc / select(to_ends > Real(0), to_ends, Real(1));
+        pole_ = Real(-4) * relative * relative * tilt;
+        power_ = max((half_arc - pole_) * (half_arc + pole_), Real(0));
+        const Vec3<Real> q = middle + pole_ * across;
+        distance_ = length(q);
+        const Real inverse_distance = detail::ratio_or_zero(Real(1), distance_);
+        const Vec3<Real> p = inverse_distance * q;
+
+        // Express directions of the disk in the basis of the horizontal h and the normal.
+        const Vec3<Real> in_world = p.x * cone.e1 + p.y * cone.e2 + p.z * cone.e3;
+        p_ = normalize(Vec3<Real>{in_world.x, in_world.y, Real(0)});
+        const Vec3<Real> aside{-p_.y, p_.x, Real(0)};
+        const Vec3<Real> h{dot(aside, cone.e1), dot(aside, cone.e2), dot(aside, cone.e3)};
+        const Real sign = select(dot(h, across) < Real(0), Real(-1), Real(1));
+        h_ = sign * aside;
+        shear_ = sign * dot(h, upwards);
+        narrowing_ = (c_ * inverse_distance) * (a_ * b_ * inverse_k);
+        slope_ = select(cut, k, Real(1));
+        along_across_ = dot(p, across);
+        along_up_ = dot(p, upwards);
+
+        // Choose the map of the rim.
+        const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);
+        squeeze_ = sqrt(ratio * sqrt(ratio));
+        const Vec2<Real> squeezed{up_.x, squeeze_ * up_.y};
+        mid_length_ = detail::hypotenuse(squeezed.x, squeezed.y);
+        mid_ = (Real(1) / mid_length_) * squeezed;
+        const Rim top = rim_at({Real(0), Real(1)}, upper);
+        const Real cosine = max(top.along / top.length, Real(-1));
+        stretch_ = Real(1) / sqrt(max(Real(0.5) * (Real(1) + cosine), Real(64 * std::numeric_limits<Scalar>::epsilon())));
+        left_ = end_of_arc(-half_arc);
+        const Real right = end_of_arc(half_arc);
+        half_range_ = Real(0.5) * (right - left_);
+
+        // Evaluate the density of the sweep.
+        Real value[Distribution::kNodes];
+        for (int i = 0; i < Distribution::kNodes; ++i) value[i] = density(turned(Real(Distribution::node(i))));
+        rim_ = Distribution(value);
+        const Real scale = narrowing_ * slope_ * slope_ * half_range_;
+        const Real measure = rim_.integral() * scale;
+        const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
+        const auto lit = cut & cone.is_visible & (measure > Real(0)) & is_finite(inverse);
+        measure_ = select(lit, measure, Real(0));
+        inverse_measure_ = select(lit, inverse, Real(0));
+    }
+
+    template <class Single>
+    NUSSELT_HD explicit ConeSweep(const ConeSweep<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    /// \param u in [0, 1)^2; u.x turns around the pole, u.y leads away from it.
+    NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const Turn turn = turned(rim_.invert(u.x));
+        const Rim rim = turn.rim;
+        const Angle angle = angle_of(rim);
+        const Real fraction = cycloid_fraction(angle.value, angle.sine, angle.cosine);
+        const Real gamma = inverse_cycloid(u.y, angle.value, fraction);
+        const auto s = sincos_half_turn(gamma);
+        const auto rest = sincos_half_turn(max(angle.value - gamma, Real(0)));
+
+        // The direction in the plane of pole and rim, of which the normal keeps its height.
+        const Real inverse = detail::ratio_or_zero(Real(1), detail::hypotenuse(rim.aside, rim.up));
+        const Real aside = rim.aside * inverse, up = rim.up * inverse;
+        Vec3<Real> wi = s.cos * p_ + (s.sin * aside) * h_;
+        wi.z = s.sin * up;
+        // The rim is the end of the way from the pole to it.
+        const Real near = distance_ * s.sin;
+        const Real share = min(detail::ratio_or_zero(near, multiply_add(rim.length, rest.sin, near)), Real(1));
+        const Vec2<Real> from{pole_, -height_};
+        const Vec2<Real> disk = from + share * (rim.disk - from);
+        return {wi, {disk.y * up_.x - disk.x * up_.y, disk.y * up_.y + disk.x * up_.x}};
+    }
+
+    /// Density of a unit direction in the cone [1/sr].
+    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
+        Real density_of_cosine = inverse_measure_;
+        if (!all(rim_.is_exact())) {
+            const Turn turn = turned(place_of(wi));
+            const Real exact = density(turn);
+            const Real ratio = detail::ratio_or_zero(rim_.value(turn.z), exact);
+            density_of_cosine = select(rim_.is_exact(), inverse_measure_, ratio * inverse_measure_);
+        }
+        return max(wi.z, Real(0)) * density_of_cosine;
+    }
+
+    /// The random numbers for which sample() returns a unit direction in the cone.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
+        const Turn turn = turned(place_of(wi));
+        const Angle angle = angle_of(turn.rim);
+        const Real across = detail::hypotenuse(dot(wi, h_), wi.z), along = dot(wi, p_);
+        const Real gamma = min(atan2_positive(across, along), angle.value);
+        const Real share = detail::ratio_or_zero(gamma, angle.value);
+        const Real inner = cycloid_fraction(gamma, across, along);
+        const Real outer = cycloid_fraction(angle.value, angle.sine, angle.cosine);
+        const Real integral = rim_.integral();
+        return {below_one(detail::ratio_or_zero(rim_.below(turn.z), integral)),
+                below_one(share * share * share * (inner / outer))};
+    }
+
+    /// Projected solid angle of the part above the horizon [sr].
+    NUSSELT_HD Real measure() const noexcept { return measure_; }
+
+private:
+    /// A point of the rim.
+    struct Rim {
+        Vec2<Real> disk;                ///< across and up from the axis
+        Real length, along, aside, up;  ///< of its direction, which is not of unit length, and in the basis p, h, n
+    };
+    struct Angle {
+        Real value, sine, cosine;
+    };
+    /// A point of the rim as a function of z in [-1, 1].
+    struct Turn {
+        Real z;
+        Rim rim;
+        Real clearance; ///< height above the horizon in the disk
+        Real jacobian;  ///< angle in the disk per angle of the map
+    };
+
+    /// \param disk      a point of the unit circle, across and up from the axis.
+    /// \param clearance its height above the horizon.
+    NUSSELT_HD Rim rim_at(const Vec2<Real>& disk, const Real& clearance) const noexcept {
+        const Real s = a_ * (disk.y * up_.x - disk.x * up_.y);
+        const Real t = b_ * (disk.y * up_.y + disk.x * up_.x);
+        const Real offset = disk.x - pole_;
+        const Real along = multiply_add(along_across_, offset, multiply_add(along_up_, clearance, distance_));
+        return {disk, sqrt(multiply_add(s, s, multiply_add(t, t, c_ * c_))), along,
+                multiply_add(narrowing_, offset, shear_ * clearance), slope_ * clearance};
+    }
+
+    NUSSELT_HD static Angle angle_of(const Rim& rim) noexcept {
+        const Real inverse = Real(1) / rim.length;
+        const Real sine = detail::hypotenuse(rim.aside, rim.up) * inverse;
+        const Real cosine = rim.along * inverse;
+        return {atan2_positive(sine, cosine), sine, cosine};
+    }
+
+    /// The angle of the map at an end of the horizon's arc.
+    /// \param sine of the angle in the disk from the highest point.
+    NUSSELT_HD Real end_of_arc(const Real& sine) const noexcept {
+        // Its cosine is -h0. Turned by the squeeze, sine and cosine are those below, up to a common factor.
+        const Vec2<Real> end{-height_ * up_.x - sine * up_.y, -height_ * up_.y + sine * up_.x};
+        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
+        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
+        const Real x = dot(squeezed, mid_);
+        const Real y = squeeze_ * abs(sine) / mid_length_;
+        // The tangent of the half of the angle, from the sum that does not cancel.
+        const auto wide = x < Real(0);
+        const Real angle = Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
+        return copysign(angle, sine);
+    }
+
+    /// \param z in [-1, 1]
+    NUSSELT_HD Turn turned(const Real& z) const noexcept {
+        // Undo the stretch of half-angles.
+        const Real zeta = multiply_add(half_range_, z + Real(1), left_);
+        const auto half = sincos_quarter_turn_with_sign(Real(0.5) * zeta);
+        const Real x = stretch_ * half.cos;
+        const Real squared = multiply_add(x, x, half.sin * half.sin);
+        const Real inverse = Real(1) / squared;
+        const Real cosine = (x - half.sin) * (x + half.sin) * inverse;
+        const Real sine = Real(2) * x * half.sin * inverse;
+
+        // Undo the squeeze. The sine of the angle from the highest point is accurate relative to itself.
+        const Vec2<Real> turned{mid_.x * cosine - mid_.y * sine, mid_.y * cosine + mid_.x * sine};
+        const Vec2<Real> angle{squeeze_ * turned.x, turned.y};
+        const Real squared_length = dot(angle, angle);
+        const Real inverse_length = Real(1) / sqrt(squared_length);
+        const Real across = inverse_length * mid_length_ * sine;
+        const Real up = inverse_length * (angle.x * up_.x + angle.y * up_.y);
+
+        // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
+        const auto below = up < Real(0);
+        const Real positive = max(abs(across), Real(std::numeric_limits<Scalar>::epsilon()));
+        const Real t = select(below, Real(1) - up, across) / select(below, positive, Real(1) + up);
+        const Real s = min(t * t, squared_tangent_);
+        const Real clearance = Real(2) * (squared_tangent_ - s) / ((Real(1) + s) * (Real(1) + squared_tangent_));
+
+        Turn result;
+        result.z = z;
+        result.rim = rim_at({across, up}, clearance);
+        result.clearance = clearance;
+        result.jacobian = (stretch_ * inverse) * (squeeze_ * inverse_length * inverse_length);
+        return result;
+    }
+
+    NUSSELT_HD static SinCos<Real> sincos_quarter_turn_with_sign(const Real& angle) noexcept {
+        const auto s = sincos_half_turn(abs(angle));
+        return {copysign(s.sin, angle), max(s.cos, Real(0))};
+    }
+
+    /// The measure of the sweep per z, up to a constant.
+    NUSSELT_HD Real density(const Turn& turn) const noexcept {
+        const Rim& rim = turn.rim;
+        const Angle angle = angle_of(rim);
+        const CycloidRatio<Real> ratio = cycloid_ratio(angle.value, angle.sine, angle.cosine);
+        const Real cosine = select(ratio.is_small, angle.cosine, Real(1));
+        const Real weight = Real(0.25) * ratio.value / (cosine * cosine * cosine);
+        const Real volume = max(Real(1) + height_ * rim.disk.y - pole_ * rim.disk.x, Real(0));
+        const Real inverse = Real(1) / rim.length;
+        return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
+    }
+
+    /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
+    NUSSELT_HD Real place_of(const Vec3<Real>& wi) const noexcept {
+        // The ray in the disk, scaled to order one.
+        const Real up = max(wi.z, Real(0)), aside = dot(wi, h_);
+        Vec2<Real> ray{aside - (shear_ / slope_) * up, (narrowing_ / slope_) * up};
+        const Real extent = max(abs(ray.x), ray.y);
+        const Real scale = reciprocal_power_of_two(extent);
+        ray = scale * ray;
+        const Real squared = dot(ray, ray);
+        const auto meets = squared > Real(0);
+        ray = select(meets, ray, Vec2<Real>{Real(0), Real(1)});
+        const Real safe = select(meets, squared, Real(1));
+
+        // The larger root of the distance to the rim, in the form without cancellation.
+        const Real half = multiply_add(pole_, ray.x, -height_ * ray.y);
+        const Real root = sqrt(max(multiply_add(half, half, safe * power_), Real(0)));
+        const auto inwards = half <= Real(0);
+        const Real reach = select(inwards, (root - half) / safe, power_ / select(inwards, Real(1), half + root));
+        const Vec2<Real> point{multiply_add(reach, ray.x, pole_), multiply_add(reach, ray.y, -height_)};
+
+        // Apply the squeeze and the stretch.
+        const Vec2<Real> end{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
+        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
+        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
+        const Real x = dot(squeezed, mid_);
+        const Real y = squeeze_ * abs(point.x) / mid_length_;
+        const auto wide = x < Real(0);
+        const Real angle = Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
+        const Real zeta = copysign(angle, point.x);
+        const Real z = detail::ratio_or_zero(zeta - left_, half_range_) - Real(1);
+        return min(max(z, Real(-1)), Real(1));
+    }
+
+    Real a_, b_, c_;
+    Vec2<Real> up_;        ///< in the disk, away from the horizon
+    Real height_;          ///< of the axis above the horizon in the disk
+    Real squared_tangent_; ///< of a quarter of the angle of the arc above the horizon
+    Real pole_;            ///< across
+    Real power_;           ///< of the pole: 1 minus its squared distance from the axis
+    Real distance_;        ///< of the pole, as a point of the cone
+    Vec3<Real> p_, h_;     ///< unit and horizontal: to the pole, and perpendicular to it
+    Real shear_, narrowing_, slope_, along_across_, along_up_; ///< from the disk to p, h and n
+    Real squeeze_, stretch_;
+    Vec2<Real> mid_; ///< the highest point after the squeeze
+    Real mid_length_;
+    Real left_, half_range_; ///< angles of the map
+    RimDistribution<Real> rim_;
+    Real measure_, inverse_measure_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.squared_tangent_, self.pole_, self.power_, self.distance_,
+              self.p_, self.h_, self.shear_, self.narrowing_, self.slope_, self.along_across_, self.along_up_,
+              self.squeeze_, self.stretch_, self.mid_, self.mid_length_, self.left_, self.half_range_, self.rim_,
+              self.measure_, self.inverse_measure_);
+    }
+};
+
+NUSSELT_NAMESPACE_END
