@@ -88,6 +88,9 @@ struct FlatLightView {
     Vec3<Real> center, u, v; ///< in shading space, scaled to an extent of order one
     Real inverse_scale;      ///< a power of two
 
+    /// Whether the light surrounds the origin: never.
+    NUSSELT_HD static mask_t<Real> is_open() noexcept { return mask_t<Real>(false); }
+
     /// The point of the light that belongs to a point of the disk of the cone [m].
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& disk, const Vec3<Real>&) const noexcept {
         const Vec2<Real> p = cone.to_light(disk);
@@ -111,6 +114,9 @@ struct SolidLightView {
     Real rim;                   ///< sqrt(1 - closeness^2)
     mask_t<Real> is_inside;
     Real inverse_scale; ///< a power of two
+
+    /// Whether the light surrounds the origin.
+    NUSSELT_HD const mask_t<Real>& is_open() const noexcept { return is_inside; }
 
     /// The point of the light that belongs to a point of the disk of the cone, the closer one of two; from inside, where a ray
     /// leaves the light [m]. Tiny and near lights do not cancel.

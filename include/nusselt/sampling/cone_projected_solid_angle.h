@@ -7,67 +7,9 @@
 
 #include <nusselt/core/light_sample.h>
 #include <nusselt/geometry/round_lights.h>
-#include <nusselt/sampling/cone_sweep.h>
-#include <nusselt/sampling/whole_cone.h>
+#include <nusselt/sampling/cosine_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-namespace detail {
-
-/// The part of an elliptic cone above the horizon, whether or not the horizon cuts it.
-template <class Real, int Steps>
-class CosineCone {
-public:
-    CosineCone() = default;
-
-    NUSSELT_HD explicit CosineCone(const EllipticCone<Real>& cone) noexcept
-        : is_whole_(is_above_horizon(cone)), whole_(cone), sweep_() {
-        // The sweep is costly to prepare, and seldom needed.
-        if (any(!is_whole_)) sweep_ = ConeSweep<Real>(cone);
-    }
-
-    template <class Single>
-    NUSSELT_HD explicit CosineCone(const CosineCone<Single, Steps>& single) noexcept {
-        broadcast_members<Real>(*this, single);
-    }
-
-    NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        if (all(is_whole_)) return whole_.sample(u);
-        const ConeSample<Real> cut = sweep_.sample(u);
-        if (!any(is_whole_)) return cut;
-        const ConeSample<Real> whole = whole_.sample(u);
-        return {select(is_whole_, whole.wi, cut.wi), select(is_whole_, whole.disk, cut.disk)};
-    }
-    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        if (all(is_whole_)) return whole_.pdf(wi);
-        return select(is_whole_, whole_.pdf(wi), sweep_.pdf(wi));
-    }
-    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        if (all(is_whole_)) return whole_.invert(wi);
-        return select(is_whole_, whole_.invert(wi), sweep_.invert(wi));
-    }
-    NUSSELT_HD Real measure() const noexcept {
-        if (all(is_whole_)) return whole_.measure();
-        return select(is_whole_, whole_.measure(), sweep_.measure());
-    }
-
-private:
-    mask_t<Real> is_whole_;
-    WholeCone<Real, Steps> whole_;
-    ConeSweep<Real> sweep_; ///< only where the horizon cuts a cone in any lane
-
-    friend struct detail::Members;
-    template <class Self, class Visit>
-    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.is_whole_, self.whole_, self.sweep_);
-    }
-};
-
-/// Steps that make the backward error one of rounding.
-template <class Real>
-inline constexpr int kConeSteps = kIsSingle<Real> ? 2 : 3;
-
-} // namespace detail
 
 /// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
 ///               of one light (see the broadcasting constructor).
@@ -80,7 +22,7 @@ inline constexpr int kConeSteps = kIsSingle<Real> ? 2 : 3;
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
 /// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a
 /// sphere or an ellipsoid, all directions above the horizon lead to its surface.
-template <class Real, template <class> class Light, int Steps = detail::kConeSteps<Real>>
+template <class Real, template <class> class Light, int Steps = kConeSteps<Real>>
 class ConeProjectedSolidAngle {
 public:
     /// \param light in shading space [m].
@@ -106,7 +48,7 @@ public:
 
     /// \param wi a unit direction towards the light.
     NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        const Real density = cone_.pdf(wi);
+        const Real density = max(wi.z, Real(0)) * cone_.density_per_cosine(wi);
         return select(is_finite(density), density, Real(0));
     }
 
@@ -118,7 +60,7 @@ public:
 
 private:
     LightView<Light<Real>> view_;
-    detail::CosineCone<Real, Steps> cone_;
+    CosineCone<Real, Steps> cone_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

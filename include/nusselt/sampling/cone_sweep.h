@@ -136,16 +136,12 @@ public:
         return {wi, {disk.y * up_.x - disk.x * up_.y, disk.y * up_.y + disk.x * up_.x}};
     }
 
-    /// Density of a unit direction in the cone [1/sr].
-    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        Real density_of_cosine = inverse_measure_;
-        if (!all(rim_.is_exact())) {
-            const Turn turn = turned(place_of(wi));
-            const Real exact = density(turn);
-            const Real ratio = detail::ratio_or_zero(rim_.value(turn.z), exact);
-            density_of_cosine = select(rim_.is_exact(), inverse_measure_, ratio * inverse_measure_);
-        }
-        return max(wi.z, Real(0)) * density_of_cosine;
+    /// The density of a unit direction in the cone over its cosine [1/sr].
+    NUSSELT_HD Real density_per_cosine(const Vec3<Real>& wi) const noexcept {
+        if (all(rim_.is_exact())) return inverse_measure_;
+        const Turn turn = turned(place_of(wi));
+        const Real ratio = detail::ratio_or_zero(rim_.value(turn.z), density(turn));
+        return select(rim_.is_exact(), Real(1), ratio) * inverse_measure_;
     }
 
     /// The random numbers for which sample() returns a unit direction in the cone.

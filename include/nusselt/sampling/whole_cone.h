@@ -69,8 +69,8 @@ public:
         return {wi, {disk_per_radius_.x * turn.cos * inverse, disk_per_radius_.y * turn.sin * inverse}};
     }
 
-    /// Density of a unit direction in the cone [1/sr].
-    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept { return max(wi.z, Real(0)) * inverse_measure_; }
+    /// The density of directions in the cone over their cosine [1/sr].
+    NUSSELT_HD const Real& density_per_cosine() const noexcept { return inverse_measure_; }
 
     /// The random numbers for which sample() returns a unit direction in the cone.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
