@@ -1,8 +1,8 @@
 #pragma once
 /// Sampling of the part of any elliptic cone above the horizon in proportion to the cosine at the surface.
 
-#include <nusselt/sampling/cone_sweep.h>
-#include <nusselt/sampling/whole_cone.h>
+#include <nusselt/cones/cone_sweep.h>
+#include <nusselt/cones/whole_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -18,16 +18,16 @@ struct GegenbauerNodes {
 
     /// Nodes in increasing order: the zeros of the derivative of Legendre's polynomial of degree 17.
     static constexpr double node(int i) noexcept {
-        constexpr double kPositive[] = {0.08974909348465211102, 0.26636265287828098416, 0.43441503691212397534,
-                                        0.58850483431866176117, 0.72367932928324268130, 0.83559353521809021371,
-                                        0.92064918534753387383, 0.97610555741219854286};
+        constexpr double kPositive[] = {
+            0.08974909348465211102, 0.26636265287828098416, 0.43441503691212397534, 0.58850483431866176117,
+            0.72367932928324268130, 0.83559353521809021371, 0.92064918534753387383, 0.97610555741219854286};
         return i < kCount / 2 ? -kPositive[kCount / 2 - 1 - i] : kPositive[i - kCount / 2];
     }
     /// Weights of Lobatto's quadrature with 18 nodes: those of the weight 1 - z^2 over 1 - z^2.
     static constexpr double weight(int i) noexcept {
-        constexpr double kPositive[] = {0.17901586343970308229, 0.17326210948945622601, 0.16193951723760248926,
-                                        0.14541196157380226798, 0.12421053313296710026, 0.09901627171750280239,
-                                        0.07063716688563366499, 0.03997062881091406613};
+        constexpr double kPositive[] = {
+            0.17901586343970308229, 0.17326210948945622601, 0.16193951723760248926, 0.14541196157380226798,
+            0.12421053313296710026, 0.09901627171750280239, 0.07063716688563366499, 0.03997062881091406613};
         return kPositive[i < kCount / 2 ? kCount / 2 - 1 - i : i - kCount / 2];
     }
 };
@@ -62,7 +62,9 @@ class RimDistribution {
 
 public:
     static constexpr int kNodes = detail::GegenbauerNodes::kCount;
-    static constexpr Scalar node(int i) noexcept { return static_cast<Scalar>(detail::GegenbauerNodes::node(i)); }
+    static constexpr Scalar node(int i) noexcept {
+        return static_cast<Scalar>(detail::GegenbauerNodes::node(i));
+    }
 
     RimDistribution() = default;
 
@@ -117,7 +119,8 @@ public:
             NUSSELT_UNROLL
             for (int i = 0; i < 2; ++i) {
                 const Real slope = polynomial_value(refined);
-                const Real step = (polynomial_below(refined) - goal) / select(slope > Real(0), slope, Real(1));
+                const Real step =
+                    (polynomial_below(refined) - goal) / select(slope > Real(0), slope, Real(1));
                 refined = select(slope > Real(0), min(max(refined - step, Real(-1)), Real(1)), refined);
             }
             z = select(is_polynomial_, refined, z);
@@ -171,7 +174,8 @@ private:
         const Real goal = u * below_[kNodes];
         const Segment s = segment([&](int i) { return goal >= below_[i]; });
         const Real rest = max(goal - s.below, Real(0)) / s.width;
-        const Real root = sqrt(max(multiply_add(Real(2) * (s.right - s.left), rest, s.left * s.left), Real(0)));
+        const Real root =
+            sqrt(max(multiply_add(Real(2) * (s.right - s.left), rest, s.left * s.left), Real(0)));
         const Real denominator = s.left + root;
         const Real share = Real(2) * rest / select(denominator > Real(0), denominator, Real(1));
         return multiply_add(min(share, Real(1)), s.width, s.begin);

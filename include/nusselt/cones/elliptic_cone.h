@@ -115,7 +115,8 @@ struct ConeColumns {
         const Real h = -copysign(ratio_or_zero(abs(both + both), dot(x, x) + dot(c, c) + root), both);
         // The square of 1 - h^2 is a number only if the point is not on the rim of the light.
         const Real complement = (Real(1) - h) * (Real(1) + h);
-        const Real g = Real(1) / sqrt(max(complement, Real(std::numeric_limits<scalar_t<Real>>::epsilon() / 64)));
+        const Real g =
+            Real(1) / sqrt(max(complement, Real(std::numeric_limits<scalar_t<Real>>::epsilon() / 64)));
         const Vec3<Real> boosted = g * (x + h * c);
         c = g * (c + h * x);
         x = boosted;
@@ -255,9 +256,9 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
 
     // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the normal.
     const auto over_disk = p < radius;
-    const Real lateral = select(over_disk,
-                                detail::ratio_or_zero(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
-                                (p - radius) * far + (p + radius) * near);
+    const Real lateral = select(
+        over_disk, detail::ratio_or_zero(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
+        (p - radius) * far + (p + radius) * near);
     const Real upright = copysign(select(over_disk, sum, h * sum), signed_height);
     const Vec3<Real> close = lateral * m + upright * normal;
     const Vec3<Real> axis = normalize(select(within, close, centre - (delta * radius) * m));

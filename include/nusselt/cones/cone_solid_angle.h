@@ -7,7 +7,7 @@
 /// C. Wang 1992, Physically correct direct lighting for distribution ray tracing, Graphics Gems III.
 
 #include <nusselt/core/light_sample.h>
-#include <nusselt/geometry/round_lights.h>
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -64,7 +64,8 @@ public:
         const Real x = around_.invert(select(mirrored, Real(1) - inside, inside));
         const auto turn = sincos_quarter_turn(Real(kPi<Scalar> / 2) * x);
         const auto left = (quadrant == Real(1)) | (quadrant == Real(2));
-        const Vec2<Real> direction{select(left, -turn.cos, turn.cos), select(quadrant >= Real(2), -turn.sin, turn.sin)};
+        const Vec2<Real> direction{select(left, -turn.cos, turn.cos),
+                                   select(quadrant >= Real(2), -turn.sin, turn.sin)};
 
         // The cosine of the angle from the axis is uniform; its complement keeps small angles apart.
         const Real squared = squared_sine(turn.cos, turn.sin);
@@ -94,11 +95,12 @@ public:
         const Real share = detail::ratio_or_zero(around_.below(place.x), around_.integral());
         const auto left = dot(wi, view_.cone.e1) < Real(0);
         const auto low = dot(wi, view_.cone.e2) < Real(0);
-        const Real turns = select(low, select(left, Real(2) + share, Real(4) - share),
-                                  select(left, Real(2) - share, share));
+        const Real turns =
+            select(low, select(left, Real(2) + share, Real(4) - share), select(left, Real(2) - share, share));
         const Real up = Real(1) + dot(wi, view_.cone.e3);
         // 1 - cosine over the squared sine at the rim is the squared radius over 1 + cosine.
-        const Real fall = select(view_.is_open(), Real(2) - up, detail::ratio_or_zero(place.radius * place.radius, up));
+        const Real fall =
+            select(view_.is_open(), Real(2) - up, detail::ratio_or_zero(place.radius * place.radius, up));
         return {below_one(Real(0.25) * turns), below_one(fall / drop(place.cosine, place.sine))};
     }
 

@@ -10,8 +10,8 @@
 /// with an odd term that is a correction of the order of the angular size. The measure is that of E. Heitz and S. Hill 2017,
 /// Linear-Light Shading with Linearly Transformed Cosines, for ellipses: the cosine of the axis times pi alpha beta.
 
-#include <nusselt/geometry/elliptic_cone.h>
-#include <nusselt/sampling/cone_sweep.h>
+#include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/cones/cone_sweep.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -74,7 +74,8 @@ public:
 
     /// The random numbers for which sample() returns a unit direction in the cone.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        const Real x = detail::ratio_or_zero(abs(dot(wi, e1_)), alpha_), y = detail::ratio_or_zero(abs(dot(wi, e2_)), beta_);
+        const Real x = detail::ratio_or_zero(abs(dot(wi, e1_)), alpha_),
+                   y = detail::ratio_or_zero(abs(dot(wi, e2_)), beta_);
         const Real radius = min(detail::hypotenuse(x, y), Real(1));
         const Real sign = select(dot(wi, e2_) < Real(0), Real(-1), Real(1));
         const Real cosine = copysign(x, sign * dot(wi, e1_));
@@ -136,7 +137,8 @@ private:
             const Real inverse = Real(1) / w;
             const Real f = value(ray, zeta, r) - goal;
             const Real slope = Real(2) * r * max(multiply_add(zeta * r, inverse, Real(1)), Real(0));
-            const Real curve = multiply_add(Real(2) * zeta * r, multiply_add(w, w, Real(1)) * (inverse * inverse * inverse), Real(2));
+            const Real curve = multiply_add(
+                Real(2) * zeta * r, multiply_add(w, w, Real(1)) * (inverse * inverse * inverse), Real(2));
             const Real root = sqrt(max(multiply_add(slope, slope, Real(-2) * f * curve), Real(0)));
             r = min(max(r - Real(2) * detail::ratio_or_zero(f, slope + root), Real(0)), Real(1));
         }

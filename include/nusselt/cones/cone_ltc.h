@@ -7,9 +7,9 @@
 /// disks the shape of the image is that of E. Heitz and S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines.
 
 #include <nusselt/core/light_sample.h>
-#include <nusselt/geometry/round_lights.h>
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/ltc/ltc.h>
-#include <nusselt/sampling/cosine_cone.h>
+#include <nusselt/cones/cosine_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

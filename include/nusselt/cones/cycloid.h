@@ -31,9 +31,9 @@ namespace detail {
 struct InverseCycloid {
     static constexpr int kTerms = 9;
     static constexpr float coefficient(int i) noexcept {
-        constexpr float kFitted[] = {1.00000008f,    1.66649979e-2f,  7.20078958e-4f,  3.19933824e-5f,
-                                     7.53784436e-6f, -1.64838031e-6f, 3.80596054e-7f,  -3.92543666e-8f,
-                                     1.95707355e-9f};
+        constexpr float kFitted[] = {1.00000008f,    1.66649979e-2f,  7.20078958e-4f,
+                                     3.19933824e-5f, 7.53784436e-6f,  -1.64838031e-6f,
+                                     3.80596054e-7f, -3.92543666e-8f, 1.95707355e-9f};
         return kFitted[i];
     }
 };
@@ -49,7 +49,8 @@ struct CycloidRatio {
 
 /// \param sine, cosine of an angle in [0, pi); exactly the angle that is given as well.
 template <class Real>
-NUSSELT_INLINE CycloidRatio<Real> cycloid_ratio(const Real& angle, const Real& sine, const Real& cosine) noexcept {
+NUSSELT_INLINE CycloidRatio<Real> cycloid_ratio(const Real& angle, const Real& sine,
+                                                const Real& cosine) noexcept {
     const auto small = sine < cosine;
     const Real t = select(small, sine, Real(0)) / select(small, cosine, Real(1));
     const Real s = t * t;
@@ -59,7 +60,8 @@ NUSSELT_INLINE CycloidRatio<Real> cycloid_ratio(const Real& angle, const Real& s
     } else {
         const auto tiny = s < Real(kTiny<scalar_t<Real>>);
         const Real safe = select(tiny, Real(1), s);
-        near = select(tiny, Real(4) / Real(3), Real(2) * (Real(1) / (Real(1) + s) - one_minus_atan_ratio(safe) / safe));
+        near = select(tiny, Real(4) / Real(3),
+                      Real(2) * (Real(1) / (Real(1) + s) - one_minus_atan_ratio(safe) / safe));
     }
     const Real cube = sine * sine * sine;
     const Real far = Real(2) * (angle - sine * cosine) / select(cube > Real(0), cube, Real(1));

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include <nusselt/geometry/elliptic_cone.h>
+#include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/geometry/scaled_light.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -53,8 +53,8 @@ NUSSELT_INLINE Disk<Real> to_shading_space(const Disk<LightReal>& world, const V
 template <class Real, class LightReal>
 NUSSELT_INLINE Ellipse<Real> to_shading_space(const Ellipse<LightReal>& world, const Vec3<Real>& point,
                                               const Frame<Real>& frame) noexcept {
-    return {frame.to_local(broadcast<Real>(world.center) - point),
-            frame.to_local(broadcast<Real>(world.u)), frame.to_local(broadcast<Real>(world.v))};
+    return {frame.to_local(broadcast<Real>(world.center) - point), frame.to_local(broadcast<Real>(world.u)),
+            frame.to_local(broadcast<Real>(world.v))};
 }
 template <class Real, class LightReal>
 NUSSELT_INLINE Ellipsoid<Real> to_shading_space(const Ellipsoid<LightReal>& world, const Vec3<Real>& point,
@@ -108,10 +108,11 @@ struct FlatLightView {
 template <class Real>
 struct SolidLightView {
     EllipticCone<Real> cone;
-    Vec3<Real> center, w, u, v; ///< w leads to the centre in the space of the unit sphere, u and v are perpendicular to w there
-    Vec3<Real> inverse[3];      ///< rows of the inverse of (w u v), for rays from inside
-    Real closeness;             ///< one over the distance of the centre in the space of the unit sphere
-    Real rim;                   ///< sqrt(1 - closeness^2)
+    Vec3<Real> center, w, u,
+        v; ///< w leads to the centre in the space of the unit sphere, u and v are perpendicular to w there
+    Vec3<Real> inverse[3]; ///< rows of the inverse of (w u v), for rays from inside
+    Real closeness;        ///< one over the distance of the centre in the space of the unit sphere
+    Real rim;              ///< sqrt(1 - closeness^2)
     mask_t<Real> is_inside;
     Real inverse_scale; ///< a power of two
 
@@ -126,15 +127,15 @@ struct SolidLightView {
         const Real inverse_sum = Real(1) / (Real(1) + kappa * closeness);
         const Real back = (closeness + kappa) * inverse_sum;
         const Real lateral = rim * inverse_sum;
-        const Vec3<Real> outside =
-            center + ((lateral * p.x) * u + (lateral * p.y) * v - back * w);
+        const Vec3<Real> outside = center + ((lateral * p.x) * u + (lateral * p.y) * v - back * w);
         if (!any(is_inside)) return outside;
         // |t d - y| = 1 with the direction d and the centre y in the space of the unit sphere.
         const Vec3<Real> d{dot(inverse[0], wi), dot(inverse[1], wi), dot(inverse[2], wi)};
         const Real y = Real(1) / select(is_inside, max(closeness, Real(1)), Real(1));
         const Real squared = dot(d, d);
         const Real half = d.x * y;
-        const Real root = sqrt(max(multiply_add(half, half, squared * ((Real(1) - y) * (Real(1) + y))), Real(0)));
+        const Real root =
+            sqrt(max(multiply_add(half, half, squared * ((Real(1) - y) * (Real(1) + y))), Real(0)));
         const Real t = detail::ratio_or_zero(root + half, squared);
         return select(is_inside, t * wi, outside);
     }
@@ -229,8 +230,8 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const 
     view.is_inside = distance < radius;
     const Real safe = select(distance > Real(0), distance, Real(1));
     const Vec3<Real> to_centre = (Real(1) / safe) * view.center;
-    const Frame<Real> frame =
-        Frame<Real>::from_normal(select(distance > Real(0), to_centre, Vec3<Real>{Real(0), Real(0), Real(1)}));
+    const Frame<Real> frame = Frame<Real>::from_normal(
+        select(distance > Real(0), to_centre, Vec3<Real>{Real(0), Real(0), Real(1)}));
     view.closeness = radius / max(safe, Real(std::numeric_limits<scalar_t<Real>>::min()));
     view.rim = sqrt(max((distance - radius) * (distance + radius), Real(0))) / safe;
     view.w = radius * frame.n;
@@ -278,9 +279,7 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Ellipsoid<Real>& light, con
         select(centred, Vec3<Real>{Real(0), Real(0), Real(1)}, (Real(1) / safe) * unit));
     view.closeness = down / max(safe, Real(std::numeric_limits<scalar_t<Real>>::min()));
     view.rim = sqrt(max((distance - down) * (distance + down), Real(0))) / safe;
-    const auto to_light = [&](const Vec3<Real>& x) {
-        return down * (x.x * a + (x.y * b + x.z * c));
-    };
+    const auto to_light = [&](const Vec3<Real>& x) { return down * (x.x * a + (x.y * b + x.z * c)); };
     view.w = to_light(frame.n);
     view.u = to_light(frame.t);
     view.v = to_light(frame.b);

@@ -6,8 +6,8 @@
 /// above it have different maps, both of which are continuous.
 
 #include <nusselt/core/light_sample.h>
-#include <nusselt/geometry/round_lights.h>
-#include <nusselt/sampling/cosine_cone.h>
+#include <nusselt/cones/round_lights.h>
+#include <nusselt/cones/cosine_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
