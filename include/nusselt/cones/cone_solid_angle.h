@@ -33,8 +33,8 @@ public:
         : view_(view_of(light, detail::SameSpace())) {
         const EllipticCone<Real>& cone = view_.cone;
         const Real a1 = detail::hypotenuse(cone.a, cone.c), b1 = detail::hypotenuse(cone.b, cone.c);
-        sine_ = {detail::ratio_or_zero(cone.a, a1), detail::ratio_or_zero(cone.b, b1)};
-        cosine_ = {detail::ratio_or_zero(cone.c, a1), detail::ratio_or_zero(cone.c, b1)};
+        sine_ = {detail::over_positive(cone.a, a1), detail::over_positive(cone.b, b1)};
+        cosine_ = {detail::over_positive(cone.c, a1), detail::over_positive(cone.c, b1)};
         Real value[kNodes];
         for (int i = 0; i < kNodes; ++i) {
             const auto turn = sincos_quarter_turn(Real(kPi<Scalar> / 2 * Warp::node(i)));
@@ -76,7 +76,7 @@ public:
         const Vec3<Real> sampled = (radius * sine_.x * direction.x) * cone.e1 +
                                    (radius * sine_.y * direction.y) * cone.e2 + cosine * cone.e3;
         const Vec3<Real> wi = select(measure_ > Real(0), sampled, Vec3<Real>{Real(0), Real(0), Real(1)});
-        const Real inverse = detail::ratio_or_zero(radius, cosine);
+        const Real inverse = detail::over_positive(radius, cosine);
         const Vec2<Real> disk{inverse * cosine_.x * direction.x, inverse * cosine_.y * direction.y};
         const Real distance = max(dot(wi, view_.point(disk, wi)), Real(0));
         return {wi, pdf(wi), (view_.inverse_scale * distance) * wi};
@@ -92,7 +92,7 @@ public:
     /// The random numbers for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
         const Place place = place_of(wi);
-        const Real share = detail::ratio_or_zero(around_.below(place.x), around_.integral());
+        const Real share = detail::over_positive(around_.below(place.x), around_.integral());
         const auto left = dot(wi, view_.cone.e1) < Real(0);
         const auto low = dot(wi, view_.cone.e2) < Real(0);
         const Real turns =
@@ -100,7 +100,7 @@ public:
         const Real up = Real(1) + dot(wi, view_.cone.e3);
         // 1 - cosine over the squared sine at the rim is the squared radius over 1 + cosine.
         const Real fall =
-            select(view_.is_open(), Real(2) - up, detail::ratio_or_zero(place.radius * place.radius, up));
+            select(view_.is_open(), Real(2) - up, detail::over_positive(place.radius * place.radius, up));
         return {below_one(Real(0.25) * turns), below_one(fall / drop(place.cosine, place.sine))};
     }
 
@@ -114,10 +114,10 @@ private:
     };
 
     NUSSELT_HD Place place_of(const Vec3<Real>& wi) const noexcept {
-        const Real x = detail::ratio_or_zero(abs(dot(wi, view_.cone.e1)), sine_.x);
-        const Real y = detail::ratio_or_zero(abs(dot(wi, view_.cone.e2)), sine_.y);
+        const Real x = detail::over_positive(abs(dot(wi, view_.cone.e1)), sine_.x);
+        const Real y = detail::over_positive(abs(dot(wi, view_.cone.e2)), sine_.y);
         const Real radius = detail::hypotenuse(x, y);
-        const Real inverse = detail::ratio_or_zero(Real(1), radius);
+        const Real inverse = detail::over_positive(Real(1), radius);
         const Real angle = Real(2 / kPi<Scalar>) * atan2_positive(y, x);
         return {min(angle, Real(1)), select(inverse > Real(0), x * inverse, Real(1)), y * inverse, radius};
     }

@@ -67,14 +67,14 @@ public:
         const auto rest = sincos_half_turn(max(angle.value - gamma, Real(0)));
 
         // The direction in the plane of pole and rim, of which the normal keeps its height.
-        const Real inverse = detail::ratio_or_zero(Real(1), detail::hypotenuse(rim.aside, rim.up));
+        const Real inverse = detail::over_positive(Real(1), detail::hypotenuse(rim.aside, rim.up));
         const Real aside = rim.aside * inverse, up = rim.up * inverse;
         Vec3<Real> wi = s.cos * map_.p() + (s.sin * aside) * map_.h();
         wi.z = s.sin * up;
         // The rim is the end of the way from the pole to it.
         const Real near = map_.distance() * s.sin;
         const Real share =
-            min(detail::ratio_or_zero(near, multiply_add(rim.length, rest.sin, near)), Real(1));
+            min(detail::over_positive(near, multiply_add(rim.length, rest.sin, near)), Real(1));
         return {wi, map_.towards(rim, share)};
     }
 
@@ -82,7 +82,7 @@ public:
     NUSSELT_HD Real density_per_cosine(const Vec3<Real>& wi) const noexcept {
         if (all(rim_.is_exact())) return inverse_measure_;
         const auto turn = map_.turned(map_.place_of(wi));
-        const Real ratio = detail::ratio_or_zero(rim_.value(turn.z), map_.density(turn));
+        const Real ratio = detail::over_positive(rim_.value(turn.z), map_.density(turn));
         return select(rim_.is_exact(), Real(1), ratio) * inverse_measure_;
     }
 
@@ -92,11 +92,11 @@ public:
         const auto angle = map_.angle_of(turn.rim);
         const Real across = detail::hypotenuse(dot(wi, map_.h()), wi.z), along = dot(wi, map_.p());
         const Real gamma = min(atan2_positive(across, along), angle.value);
-        const Real share = detail::ratio_or_zero(gamma, angle.value);
+        const Real share = detail::over_positive(gamma, angle.value);
         const Real inner = cycloid_fraction(gamma, across, along);
         const Real outer = cycloid_fraction(angle.value, angle.sine, angle.cosine);
         const Real integral = rim_.integral();
-        return {below_one(detail::ratio_or_zero(rim_.below(turn.z), integral)),
+        return {below_one(detail::over_positive(rim_.below(turn.z), integral)),
                 below_one(share * share * share * (inner / outer))};
     }
 

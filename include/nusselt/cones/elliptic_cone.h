@@ -25,7 +25,7 @@ NUSSELT_INLINE Real hypotenuse(const Real& x, const Real& y) noexcept {
 
 /// numerator / denominator, or 0 unless the denominator is positive.
 template <class Real>
-NUSSELT_INLINE Real ratio_or_zero(const Real& numerator, const Real& denominator) noexcept {
+NUSSELT_INLINE Real over_positive(const Real& numerator, const Real& denominator) noexcept {
     const auto positive = denominator > Real(0);
     return select(positive, numerator / select(positive, denominator, Real(1)), Real(0));
 }
@@ -91,7 +91,7 @@ struct ConeColumns {
         const Real both = dot(u, v);
         const Real difference = dot(u - v, u + v);
         const Real denominator = abs(difference) + hypotenuse(difference, both + both);
-        const Real tangent = copysign(ratio_or_zero(abs(both + both), denominator), both * difference);
+        const Real tangent = copysign(over_positive(abs(both + both), denominator), both * difference);
         const Real cosine = Real(1) / sqrt(multiply_add(tangent, tangent, Real(1)));
         const Real sine = tangent * cosine;
         const Vec3<Real> turned = cosine * u + sine * v;
@@ -112,7 +112,7 @@ struct ConeColumns {
         const Vec3<Real> less = c - x;
         const Vec3<Real> more = c + x;
         const Real root = sqrt(dot(less, less)) * sqrt(dot(more, more));
-        const Real h = -copysign(ratio_or_zero(abs(both + both), dot(x, x) + dot(c, c) + root), both);
+        const Real h = -copysign(over_positive(abs(both + both), dot(x, x) + dot(c, c) + root), both);
         // The square of 1 - h^2 is a number only if the point is not on the rim of the light.
         const Real complement = (Real(1) - h) * (Real(1) + h);
         const Real g =
@@ -257,7 +257,7 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the normal.
     const auto over_disk = p < radius;
     const Real lateral = select(
-        over_disk, detail::ratio_or_zero(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
+        over_disk, detail::over_positive(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
         (p - radius) * far + (p + radius) * near);
     const Real upright = copysign(select(over_disk, sum, h * sum), signed_height);
     const Vec3<Real> close = lateral * m + upright * normal;

@@ -63,7 +63,7 @@ public:
         power_ = max((half_arc - pole_) * (half_arc + pole_), Real(0));
         const Vec3<Real> q = middle + pole_ * across;
         distance_ = length(q);
-        const Real inverse_distance = detail::ratio_or_zero(Real(1), distance_);
+        const Real inverse_distance = detail::over_positive(Real(1), distance_);
         const Vec3<Real> p = inverse_distance * q;
 
         // Express directions of the disk in the basis of the horizontal h and the normal.
@@ -200,7 +200,7 @@ public:
         const Real angle =
             Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
         const Real zeta = copysign(angle, point.x);
-        const Real z = detail::ratio_or_zero(zeta - left_, half_range_) - Real(1);
+        const Real z = detail::over_positive(zeta - left_, half_range_) - Real(1);
         return min(max(z, Real(-1)), Real(1));
     }
 

@@ -67,7 +67,7 @@ NUSSELT_INLINE Ellipsoid<Real> to_shading_space(const Ellipsoid<LightReal>& worl
 namespace detail {
 
 template <class Real>
-NUSSELT_INLINE Real extent_of(const Vec3<Real>& v) noexcept {
+NUSSELT_INLINE Real largest_component(const Vec3<Real>& v) noexcept {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
@@ -136,7 +136,7 @@ struct SolidLightView {
         const Real half = d.x * y;
         const Real root =
             sqrt(max(multiply_add(half, half, squared * ((Real(1) - y) * (Real(1) + y))), Real(0)));
-        const Real t = detail::ratio_or_zero(root + half, squared);
+        const Real t = detail::over_positive(root + half, squared);
         return select(is_inside, t * wi, outside);
     }
 
@@ -165,7 +165,7 @@ NUSSELT_INLINE SolidLightView<Real> broadcast(const SolidLightView<Single>& view
 template <class Real, class Map>
 NUSSELT_HD inline FlatLightView<Real> view_of(const Ellipse<Real>& light, const Map& map) noexcept {
     const Real extent =
-        max(max(detail::extent_of(light.center), detail::extent_of(light.u)), detail::extent_of(light.v));
+        max(max(detail::largest_component(light.center), detail::largest_component(light.u)), detail::largest_component(light.v));
     const Real scale = reciprocal_power_of_two(extent);
     FlatLightView<Real> view;
     view.center = scale * light.center;
@@ -180,7 +180,7 @@ NUSSELT_HD inline FlatLightView<Real> view_of(const Ellipse<Real>& light, const 
 /// \copydoc view_of(const Ellipse<Real>&, const Map&)
 template <class Real, class Map>
 NUSSELT_HD inline FlatLightView<Real> view_of(const Disk<Real>& light, const Map& map) noexcept {
-    const Real scale = reciprocal_power_of_two(max(detail::extent_of(light.center), light.radius));
+    const Real scale = reciprocal_power_of_two(max(detail::largest_component(light.center), light.radius));
     FlatLightView<Real> view;
     view.center = scale * light.center;
     view.inverse_scale = reciprocal_power_of_two(scale);
@@ -221,7 +221,7 @@ NUSSELT_HD inline void open_from_inside(SolidLightView<Real>& view) noexcept {
 /// \copydoc view_of(const Ellipse<Real>&, const Map&)
 template <class Real, class Map>
 NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const Map& map) noexcept {
-    const Real scale = reciprocal_power_of_two(max(detail::extent_of(light.center), light.radius));
+    const Real scale = reciprocal_power_of_two(max(detail::largest_component(light.center), light.radius));
     SolidLightView<Real> view;
     view.center = scale * light.center;
     view.inverse_scale = reciprocal_power_of_two(scale);
@@ -237,7 +237,7 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const 
     view.w = radius * frame.n;
     view.u = radius * frame.t;
     view.v = radius * frame.b;
-    const Real inverse = detail::ratio_or_zero(Real(1), radius);
+    const Real inverse = detail::over_positive(Real(1), radius);
     view.inverse[0] = inverse * frame.n;
     view.inverse[1] = inverse * frame.t;
     view.inverse[2] = inverse * frame.b;
@@ -254,9 +254,9 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const 
 /// An ellipsoid without volume is invisible.
 template <class Real, class Map>
 NUSSELT_HD inline SolidLightView<Real> view_of(const Ellipsoid<Real>& light, const Map& map) noexcept {
-    const Real size = max(max(detail::extent_of(light.axis[0]), detail::extent_of(light.axis[1])),
-                          detail::extent_of(light.axis[2]));
-    const Real scale = reciprocal_power_of_two(max(detail::extent_of(light.center), size));
+    const Real size = max(max(detail::largest_component(light.axis[0]), detail::largest_component(light.axis[1])),
+                          detail::largest_component(light.axis[2]));
+    const Real scale = reciprocal_power_of_two(max(detail::largest_component(light.center), size));
     SolidLightView<Real> view;
     view.center = scale * light.center;
     view.inverse_scale = reciprocal_power_of_two(scale);

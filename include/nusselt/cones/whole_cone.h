@@ -35,9 +35,9 @@ public:
     NUSSELT_HD explicit WholeCone(const EllipticCone<Real>& cone) noexcept
         : e1_(cone.e1), e2_(cone.e2), e3_(cone.e3) {
         const Real a1 = detail::hypotenuse(cone.a, cone.c), b1 = detail::hypotenuse(cone.b, cone.c);
-        alpha_ = detail::ratio_or_zero(cone.a, a1);
-        beta_ = detail::ratio_or_zero(cone.b, b1);
-        disk_per_radius_ = {detail::ratio_or_zero(cone.c, a1), detail::ratio_or_zero(cone.c, b1)};
+        alpha_ = detail::over_positive(cone.a, a1);
+        beta_ = detail::over_positive(cone.b, b1);
+        disk_per_radius_ = {detail::over_positive(cone.c, a1), detail::over_positive(cone.c, b1)};
         const auto rises = e3_.z > Real(0);
         const Real inverse = Real(1) / select(rises, e3_.z, Real(1));
         odd_ = {e1_.z * alpha_ * inverse, e2_.z * beta_ * inverse};
@@ -65,7 +65,7 @@ public:
         const Real y = ray.extent * radius;
         const Real z = sqrt(max((Real(1) - y) * (Real(1) + y), Real(0)));
         const Vec3<Real> wi = (r * alpha_ * turn.cos) * e1_ + (r * beta_ * turn.sin) * e2_ + z * e3_;
-        const Real inverse = detail::ratio_or_zero(r, z);
+        const Real inverse = detail::over_positive(r, z);
         return {wi, {disk_per_radius_.x * turn.cos * inverse, disk_per_radius_.y * turn.sin * inverse}};
     }
 
@@ -74,13 +74,13 @@ public:
 
     /// The random numbers for which sample() returns a unit direction in the cone.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        const Real x = detail::ratio_or_zero(abs(dot(wi, e1_)), alpha_),
-                   y = detail::ratio_or_zero(abs(dot(wi, e2_)), beta_);
+        const Real x = detail::over_positive(abs(dot(wi, e1_)), alpha_),
+                   y = detail::over_positive(abs(dot(wi, e2_)), beta_);
         const Real radius = min(detail::hypotenuse(x, y), Real(1));
         const Real sign = select(dot(wi, e2_) < Real(0), Real(-1), Real(1));
         const Real cosine = copysign(x, sign * dot(wi, e1_));
         const Real angle = atan2_positive(y, cosine);
-        const Real inverse = detail::ratio_or_zero(Real(1), detail::hypotenuse(x, y));
+        const Real inverse = detail::over_positive(Real(1), detail::hypotenuse(x, y));
         const Ray ray = ray_at({select(inverse > Real(0), cosine * inverse, Real(1)), y * inverse});
         const Real f = value(ray, sign * ray.eta, radius);
         return {below_one(Real(1 / kPi<Scalar>) * angle),
@@ -140,7 +140,7 @@ private:
             const Real curve = multiply_add(
                 Real(2) * zeta * r, multiply_add(w, w, Real(1)) * (inverse * inverse * inverse), Real(2));
             const Real root = sqrt(max(multiply_add(slope, slope, Real(-2) * f * curve), Real(0)));
-            r = min(max(r - Real(2) * detail::ratio_or_zero(f, slope + root), Real(0)), Real(1));
+            r = min(max(r - Real(2) * detail::over_positive(f, slope + root), Real(0)), Real(1));
         }
         return r;
     }
