@@ -67,10 +67,9 @@ public:
         const auto rest = sincos_half_turn(max(angle.value - gamma, Real(0)));
 
         // The direction in the plane of pole and rim, of which the normal keeps its height.
-        const Real inverse = detail::over_positive(Real(1), detail::hypotenuse(rim.aside, rim.up));
-        const Real aside = rim.aside * inverse, up = rim.up * inverse;
-        Vec3<Real> wi = s.cos * map_.p() + (s.sin * aside) * map_.h();
-        wi.z = s.sin * up;
+        const Vec3<Real> away = normalize(Vec3<Real>{rim.aside, rim.up, Real(0)});
+        Vec3<Real> wi = s.cos * map_.p() + (s.sin * away.x) * map_.h();
+        wi.z = s.sin * away.y;
         // The rim is the end of the way from the pole to it.
         const Real near = map_.distance() * s.sin;
         const Real share =

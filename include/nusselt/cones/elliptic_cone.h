@@ -143,12 +143,13 @@ NUSSELT_HD inline EllipticCone<Real> cone_of_columns(ConeColumns<Real> k, const 
     const Vec3<Real> first = normalize(choose(k.c, k.u, k.v));
     const Vec3<Real> second = choose(k.u, k.v, k.c), third = choose(k.v, k.c, k.u);
     const auto in_order = choose(a, b, c) >= choose(b, c, a);
-    const Vec3<Real> longer = normalize(select(in_order, second, third));
-    const Vec3<Real> across = normalize(longer - dot(longer, first) * first);
+    // Their cross product is perpendicular to the first even if the columns are almost parallel.
+    const Vec3<Real> across = normalize(cross(first, normalize(select(in_order, second, third))));
     const auto is_line = dot(across, across) == Real(0);
-    const Vec3<Real> w = select(is_line, Frame<Real>::from_normal(first).t, across);
-    const Vec3<Real> axis2 = select(in_order, w, cross(w, first));
-    const Vec3<Real> axis3 = select(in_order, cross(first, w), w);
+    const Vec3<Real> normal = select(is_line, Frame<Real>::from_normal(first).b, across);
+    const Vec3<Real> along = cross(normal, first);
+    const Vec3<Real> axis2 = select(in_order, along, -normal);
+    const Vec3<Real> axis3 = select(in_order, normal, along);
     cone.e1 = select(c_first, axis2, select(u_first, first, axis3));
     cone.e2 = select(c_first, axis3, select(u_first, axis2, first));
     cone.e3 = select(c_first, first, select(u_first, axis3, axis2));
@@ -263,9 +264,9 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     const Vec3<Real> close = lateral * m + upright * normal;
     const Vec3<Real> axis = normalize(select(within, close, centre - (delta * radius) * m));
     cone.e3 = select(dot(axis, axis) > Real(0), axis, normal);
-    cone.e2 = e2;
-    // The axis is perpendicular to e2 but for rounding.
+    // The axis keeps its height; the others are perpendicular to it.
     const Vec3<Real> e1 = normalize(cross(e2, cone.e3));
+    cone.e2 = cross(cone.e3, e1);
     const Real flip = select(dot(e1, m) < Real(0), Real(-1), Real(1));
     cone.e1 = e1;
     const Real zero = Real(0);

@@ -136,7 +136,9 @@ struct SolidLightView {
         const Real half = d.x * y;
         const Real root =
             sqrt(max(multiply_add(half, half, squared * ((Real(1) - y) * (Real(1) + y))), Real(0)));
-        const Real t = detail::over_positive(root + half, squared);
+        // Rounding next to a flat light must not lead far away.
+        const Real farthest = length(center) + length(w) + length(u) + length(v);
+        const Real t = min(detail::over_positive(root + half, squared), farthest);
         return select(is_inside, t * wi, outside);
     }
 
