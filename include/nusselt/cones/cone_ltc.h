@@ -6,10 +6,10 @@
 /// orthogonal. Points of the disk of the image lead back to the light itself, without the inverse of the map. For spheres and
 /// disks the shape of the image is that of E. Heitz and S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines.
 
-#include <nusselt/core/light_sample.h>
-#include <nusselt/cones/round_lights.h>
-#include <nusselt/ltc/ltc.h>
 #include <nusselt/cones/cosine_cone.h>
+#include <nusselt/cones/round_lights.h>
+#include <nusselt/core/light_sample.h>
+#include <nusselt/ltc/ltc.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

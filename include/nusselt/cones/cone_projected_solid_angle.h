@@ -5,9 +5,9 @@
 /// Derived here, see whole_cone.h and cone_sweep.h: all these lights are elliptic cones. Cones that the horizon cuts and those
 /// above it have different maps, both of which are continuous.
 
-#include <nusselt/core/light_sample.h>
-#include <nusselt/cones/round_lights.h>
 #include <nusselt/cones/cosine_cone.h>
+#include <nusselt/cones/round_lights.h>
+#include <nusselt/core/light_sample.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

@@ -7,9 +7,9 @@
 ///
 /// Integrals of normalised lobes: times the albedo of the lobe and the radiance of the light they are radiance.
 
+#include <nusselt/cones/cosine_cone.h>
 #include <nusselt/cones/round_lights.h>
 #include <nusselt/ltc/ltc.h>
-#include <nusselt/cones/cosine_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

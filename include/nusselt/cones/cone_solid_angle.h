@@ -6,8 +6,8 @@
 /// is between 1/2 and 1 for every cone, and interpolated in one quadrant. For spheres it is constant: the method is that of
 /// C. Wang 1992, Physically correct direct lighting for distribution ray tracing, Graphics Gems III.
 
-#include <nusselt/core/light_sample.h>
 #include <nusselt/cones/round_lights.h>
+#include <nusselt/core/light_sample.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN

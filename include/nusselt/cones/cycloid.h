@@ -3,10 +3,12 @@
 /// the surface. Both are accurate relative to themselves, for angles of any size.
 
 #include <nusselt/core/trig.h>
+#include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Cube root of x in [0, 20]. Single precision: relative error at most 3e-7 above 1e-9, absolute error at most 1e-4 below.
+/// Cube root of x in [0, 20]. Single precision: relative error at most 3e-7 above 1e-6 and 3e-6 above 1e-9, absolute error at
+/// most 2e-4 below.
 template <class Real>
 NUSSELT_INLINE Real cube_root(const Real& x) noexcept {
     if constexpr (kIsSingle<Real>) {

@@ -2,8 +2,8 @@
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
 /// cone_sweep.h.
 
-#include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/cones/cycloid.h>
+#include <nusselt/cones/elliptic_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

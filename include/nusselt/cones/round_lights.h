@@ -166,8 +166,8 @@ NUSSELT_INLINE SolidLightView<Real> broadcast(const SolidLightView<Single>& view
 /// \tparam Map a linear map with which the cone is seen, or detail::SameSpace.
 template <class Real, class Map>
 NUSSELT_HD inline FlatLightView<Real> view_of(const Ellipse<Real>& light, const Map& map) noexcept {
-    const Real extent =
-        max(max(detail::largest_component(light.center), detail::largest_component(light.u)), detail::largest_component(light.v));
+    const Real extent = max(max(detail::largest_component(light.center), detail::largest_component(light.u)),
+                            detail::largest_component(light.v));
     const Real scale = reciprocal_power_of_two(extent);
     FlatLightView<Real> view;
     view.center = scale * light.center;
@@ -256,8 +256,9 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const 
 /// An ellipsoid without volume is invisible.
 template <class Real, class Map>
 NUSSELT_HD inline SolidLightView<Real> view_of(const Ellipsoid<Real>& light, const Map& map) noexcept {
-    const Real size = max(max(detail::largest_component(light.axis[0]), detail::largest_component(light.axis[1])),
-                          detail::largest_component(light.axis[2]));
+    const Real size =
+        max(max(detail::largest_component(light.axis[0]), detail::largest_component(light.axis[1])),
+            detail::largest_component(light.axis[2]));
     const Real scale = reciprocal_power_of_two(max(detail::largest_component(light.center), size));
     SolidLightView<Real> view;
     view.center = scale * light.center;

@@ -10,8 +10,8 @@
 /// with an odd term that is a correction of the order of the angular size. The measure is that of E. Heitz and S. Hill 2017,
 /// Linear-Light Shading with Linearly Transformed Cosines, for ellipses: the cosine of the axis times pi alpha beta.
 
-#include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/cones/cone_sweep.h>
+#include <nusselt/cones/elliptic_cone.h>
 
 NUSSELT_NAMESPACE_BEGIN
 

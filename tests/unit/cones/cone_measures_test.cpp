@@ -40,7 +40,8 @@ void for_each_light(int count, const Function& f) {
 long double solid_angle_of(const Silhouette& s) {
     // Around the axis of the ellipse's centre, the cone is star-shaped.
     const Point axis = normalize(s.center);
-    const Point a = normalize(std::fabs(axis.z) < 0.7L ? cross(axis, Point{0, 0, 1}) : cross(axis, Point{1, 0, 0}));
+    const Point a =
+        normalize(std::fabs(axis.z) < 0.7L ? cross(axis, Point{0, 0, 1}) : cross(axis, Point{1, 0, 0}));
     const Point b = cross(axis, a);
     constexpr int kCount = 5000;
     long double sum = 0;
@@ -117,7 +118,8 @@ TEST(ConeLtcTest, EstimatesAndShadingAreContourIntegralsInCosineSpace) {
     for_each_light(6, [](const RoundLight& light, Place place) {
         for (const auto& lobe : kLobes) {
             const Ltc<double> ltc(lobe);
-            const auto expected = static_cast<double>(projected_solid_angle_of(image_of(silhouette_of(light), lobe)) / kPi);
+            const auto expected =
+                static_cast<double>(projected_solid_angle_of(image_of(silhouette_of(light), lobe)) / kPi);
             with_light<double>(light, [&](const auto& l) {
                 const auto technique = by_lobe(l, ltc);
                 const double shading = round_lobe_integral(l, ltc);
@@ -147,17 +149,23 @@ TEST(ConeLtcTest, PointsLieOnTheLightAndAlongDirections) {
     for_each_light(6, [](const RoundLight& light, Place) {
         for (const auto& lobe : kLobes) {
             with_light<float>(light, [&](const auto& l) {
-                const auto technique = by_lobe(l, Ltc<float>({static_cast<float>(lobe.m00), static_cast<float>(lobe.m02), static_cast<float>(lobe.m11), static_cast<float>(lobe.m20), static_cast<float>(lobe.m22), 1}));
+                const auto technique =
+                    by_lobe(l, Ltc<float>({static_cast<float>(lobe.m00), static_cast<float>(lobe.m02),
+                                           static_cast<float>(lobe.m11), static_cast<float>(lobe.m20),
+                                           static_cast<float>(lobe.m22), 1}));
                 for (int i = 0; i < 9; ++i) {
-                    const auto s = technique.sample({(static_cast<float>(i % 3) + 0.5f) / 3, (static_cast<float>(i / 3) + 0.5f) / 3});
+                    const auto s = technique.sample(
+                        {(static_cast<float>(i % 3) + 0.5f) / 3, (static_cast<float>(i / 3) + 0.5f) / 3});
                     if (!(s.pdf > 0)) continue;
                     double coordinate[3];
                     const auto p = nusselt::broadcast<double>(s.p);
                     for (int k = 0; k < 3; ++k)
-                        coordinate[k] = dot(p - light.center, light.axis[k]) / dot(light.axis[k], light.axis[k]);
+                        coordinate[k] =
+                            dot(p - light.center, light.axis[k]) / dot(light.axis[k], light.axis[k]);
                     const auto [x, y, z] = coordinate;
                     const bool is_solid = light.shape == Shape::sphere || light.shape == Shape::ellipsoid;
-                    EXPECT_LE(is_solid ? std::fabs(std::sqrt(x * x + y * y + z * z) - 1) : std::fabs(z), 2e-2);
+                    EXPECT_LE(is_solid ? std::fabs(std::sqrt(x * x + y * y + z * z) - 1) : std::fabs(z),
+                              2e-2);
                     EXPECT_LE(length(cross(s.wi, s.p)), 1e-5f * length(s.p));
                 }
             });

@@ -50,7 +50,8 @@ TEST(HostileConeTest, PacksKeepTheRules) {
     for (int i = 0; i < 4'000; ++i) {
         HostileRound<float> each[kLanes];
         for (auto& light : each) light = lights();
-        check_all_rules(in_lanes(each), [&](const auto& mask, const std::string& text) { findings(mask, text); });
+        check_all_rules(in_lanes(each),
+                        [&](const auto& mask, const std::string& text) { findings(mask, text); });
     }
     findings.expect_none();
 }

@@ -85,8 +85,8 @@ template <class Real>
 auto disk_of(const HostileRound<Real>& h) {
     const auto normal = normalize(h.axis[2]);
     const auto missing = dot(normal, normal) == Real(0);
-    return nusselt::Disk<Real>{h.center, select(missing, nusselt::Vec3<Real>{Real(0), Real(0), Real(1)}, normal),
-                               length(h.axis[0])};
+    return nusselt::Disk<Real>{
+        h.center, select(missing, nusselt::Vec3<Real>{Real(0), Real(0), Real(1)}, normal), length(h.axis[0])};
 }
 template <class Real>
 auto ellipse_of(const HostileRound<Real>& h) {
@@ -109,8 +109,8 @@ nusselt::mask_t<Real> is_finite_vector(const nusselt::Vec3<Real>& v) {
 /// Calls report(mask, text) for each rule and the lanes that break it.
 /// \param extent of the light and its distance [m].
 template <class Real, class Technique, class Report>
-void check_rules(const Technique& technique, const nusselt::Vec2<Real>& u, bool is_clipped, const Real& extent,
-                 const Report& report) {
+void check_rules(const Technique& technique, const nusselt::Vec2<Real>& u, bool is_clipped,
+                 const Real& extent, const Report& report) {
     using T = nusselt::scalar_t<Real>;
     constexpr T kTolerance = 84 * std::numeric_limits<T>::epsilon();
     const auto s = technique.sample(u);
@@ -132,7 +132,8 @@ void check_rules(const Technique& technique, const nusselt::Vec2<Real>& u, bool 
     const auto beside = cross(s.wi, s.p);
     report(sampled & !((abs(beside.x) <= slack) & (abs(beside.y) <= slack) & (abs(beside.z) <= slack)),
            "wi does not lead to p");
-    report(sampled & !((abs(s.p.x) <= Real(2) * extent) & (abs(s.p.y) <= Real(2) * extent) & (abs(s.p.z) <= Real(2) * extent)),
+    report(sampled & !((abs(s.p.x) <= Real(2) * extent) & (abs(s.p.y) <= Real(2) * extent) &
+                       (abs(s.p.z) <= Real(2) * extent)),
            "p is far from the light");
 }
 
@@ -157,9 +158,10 @@ void check_all_rules(const HostileRound<Real>& h, const Report& report) {
 }
 
 template <class Real, template <class> class Light, class Named>
-void check_light(const Light<Real>& light, const nusselt::Ltc<Real>& ltc, const nusselt::Vec2<Real>& u, const Real& extent,
-                 const Named& named) {
-    check_rules<Real>(nusselt::ConeProjectedSolidAngle<Real, Light>(light), u, true, extent, named("projected"));
+void check_light(const Light<Real>& light, const nusselt::Ltc<Real>& ltc, const nusselt::Vec2<Real>& u,
+                 const Real& extent, const Named& named) {
+    check_rules<Real>(nusselt::ConeProjectedSolidAngle<Real, Light>(light), u, true, extent,
+                      named("projected"));
     check_rules<Real>(nusselt::ConeSolidAngle<Real, Light>(light), u, false, extent, named("solid angle"));
     check_rules<Real>(nusselt::ConeLtc<Real, Light>(light, ltc), u, false, extent, named("lobe"));
 }

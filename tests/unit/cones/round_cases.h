@@ -2,6 +2,7 @@
 /// Spheres, disks, ellipses and ellipsoids for tests, and the integral of the cosine over them by a formula that the library does
 /// not use: the contour integral along the silhouette, in long double.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -32,15 +33,16 @@ auto with_light(const RoundLight& light, const Function& f) {
     const auto v = [](const nusselt::Vec3<double>& a) { return nusselt::broadcast<T>(a); };
     const auto size = static_cast<T>(length(light.axis[0]));
     switch (light.shape) {
-        case Shape::disk:
-            return f(nusselt::Disk<T>{v(light.center), normalize(v(light.axis[2])), size});
-        case Shape::ellipse: // conjugate semi-diameters
-            return f(nusselt::Ellipse<T>{v(light.center), v(0.8 * light.axis[0] + 0.6 * light.axis[1]),
-                                         v(0.8 * light.axis[1] - 0.6 * light.axis[0])});
-        case Shape::sphere:
-            return f(nusselt::Sphere<T>{v(light.center), size});
-        default:
-            return f(nusselt::Ellipsoid<T>{v(light.center), {v(light.axis[0]), v(light.axis[1]), v(light.axis[2])}});
+    case Shape::disk:
+        return f(nusselt::Disk<T>{v(light.center), normalize(v(light.axis[2])), size});
+    case Shape::ellipse: // conjugate semi-diameters
+        return f(nusselt::Ellipse<T>{v(light.center), v(0.8 * light.axis[0] + 0.6 * light.axis[1]),
+                                     v(0.8 * light.axis[1] - 0.6 * light.axis[0])});
+    case Shape::sphere:
+        return f(nusselt::Sphere<T>{v(light.center), size});
+    default:
+        return f(
+            nusselt::Ellipsoid<T>{v(light.center), {v(light.axis[0]), v(light.axis[1]), v(light.axis[2])}});
     }
 }
 
@@ -138,7 +140,8 @@ inline Silhouette silhouette_of(const RoundLight& light) {
     long double* const component[] = {&y.x, &y.y, &y.z};
     for (int i = 0; i < 3; ++i) *component[i] = dot(center, axis[i]) / dot(axis[i], axis[i]);
     const long double squared = dot(y, y);
-    const Point across = normalize(std::fabs(y.x) < std::fabs(y.y) ? Point{0, -y.z, y.y} : Point{-y.z, 0, y.x});
+    const Point across =
+        normalize(std::fabs(y.x) < std::fabs(y.y) ? Point{0, -y.z, y.y} : Point{-y.z, 0, y.x});
     const Point other = normalize(cross(y, across));
     const long double radius = std::sqrt(1 - 1 / squared);
     const auto map = [&](const Point& x) { return x.x * axis[0] + x.y * axis[1] + x.z * axis[2]; };
@@ -178,5 +181,57 @@ inline long double projected_solid_angle_of(const Silhouette& s) {
     }
     return std::fabs(sum) / 2;
 }
+
+/// The part of an ellipse above the horizon as the image of a rectangle: angles from the lowest to the highest point, and shares
+/// across. The rectangle is [0, 1]^2.
+class VisiblePart {
+public:
+    explicit VisiblePart(const Silhouette& s) : center_(s.center) {
+        // Conjugate semi-diameters of which the first is horizontal.
+        const long double swing = std::hypot(s.u.z, s.v.z);
+        const long double c = swing > 0 ? s.u.z / swing : 1, d = swing > 0 ? s.v.z / swing : 0;
+        across_ = c * s.v - d * s.u;
+        up_ = c * s.u + d * s.v;
+        lowest_ = std::asin(std::clamp(swing > 0 ? -s.center.z / swing : -1, -1.0L, 1.0L));
+    }
+
+    /// The integral of f(unit direction) with respect to solid angle over a part of the rectangle.
+    template <class Function>
+    long double integral(const Function& f, long double x0, long double x1, long double y0, long double y1,
+                         int nodes) const {
+        const QuadratureRule rule = gauss_legendre(nodes);
+        const long double volume = std::fabs(dot(center_, cross(across_, up_)));
+        long double sum = 0;
+        for (int i = 0; i < nodes; ++i) {
+            const long double angle = angle_at(y0 + (y1 - y0) * rule.nodes[static_cast<std::size_t>(i)]);
+            for (int k = 0; k < nodes; ++k) {
+                const long double x = x0 + (x1 - x0) * rule.nodes[static_cast<std::size_t>(k)];
+                const Point q = center_ + (std::cos(angle) * (2 * x - 1)) * across_ + std::sin(angle) * up_;
+                const long double distance = length(q);
+                const long double area = std::cos(angle) * std::cos(angle) * 2 * (kPi / 2 - lowest_);
+                sum += rule.weights[static_cast<std::size_t>(i)] * rule.weights[static_cast<std::size_t>(k)] *
+                       area * volume / (distance * distance * distance) * f((1 / distance) * q);
+            }
+        }
+        return sum * (x1 - x0) * (y1 - y0);
+    }
+
+    /// Where a direction is in the rectangle.
+    nusselt::Vec2<long double> place_of(const Point& wi) const {
+        // Cramer's rule for x across + y up + z center = wi.
+        const long double z = dot(cross(across_, up_), wi);
+        const long double x = dot(cross(up_, center_), wi) / z;
+        const long double y = std::clamp(dot(cross(center_, across_), wi) / z, -1.0L, 1.0L);
+        const long double half = std::sqrt(std::max(1 - y * y, 1e-30L));
+        return {std::clamp((x / half + 1) / 2, 0.0L, 1.0L),
+                std::clamp((std::asin(y) - lowest_) / (kPi / 2 - lowest_), 0.0L, 1.0L)};
+    }
+
+private:
+    long double angle_at(long double y) const { return lowest_ + (kPi / 2 - lowest_) * y; }
+
+    Point center_, across_, up_;
+    long double lowest_;
+};
 
 } // namespace nusselt_test
