@@ -46,7 +46,9 @@ public:
         rim_ = Distribution(value);
         const Real measure = rim_.integral() * map_.scale();
         const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
-        const auto lit = map_.is_cut() & cone.is_visible & (measure > Real(0)) & is_finite(inverse);
+        const auto positive = measure > Real(0);
+        const auto fits = is_finite(inverse);
+        const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }

@@ -44,7 +44,9 @@ public:
         // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
         const Real na = cone.e1.z * a_, nb = cone.e2.z * b_, nc = cone.e3.z * c_;
         const Real k = detail::hypotenuse(na, nb);
-        is_cut_ = (abs(nc) < k) & (min(a_, b_) > Real(kTiny<Scalar>));
+        const auto crosses = abs(nc) < k;
+        const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
+        is_cut_ = crosses & wide;
         const Real inverse_k = Real(1) / select(is_cut_, k, Real(1));
         up_ = {select(is_cut_, na * inverse_k, Real(1)), select(is_cut_, nb * inverse_k, Real(0))};
         const Real lower = (k - nc) * inverse_k, upper = (k + nc) * inverse_k; // 1 - h0 and 1 + h0

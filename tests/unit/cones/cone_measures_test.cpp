@@ -57,7 +57,7 @@ long double solid_angle_of(const Silhouette& s) {
 }
 
 TEST(ConeSolidAngleTest, EstimatesAreUnbiasedAndNearlyConstant) {
-    for_each_light(8, [](const RoundLight& light, Place place) {
+    for_each_light(5, [](const RoundLight& light, Place place) {
         const auto expected = static_cast<double>(solid_angle_of(silhouette_of(light)));
         with_light<double>(light, [&](const auto& l) {
             const auto technique = by_solid_angle(l);
@@ -115,7 +115,7 @@ Silhouette image_of(const Silhouette& s, const LtcCoefficients<double>& c) {
 }
 
 TEST(ConeLtcTest, EstimatesAndShadingAreContourIntegralsInCosineSpace) {
-    for_each_light(6, [](const RoundLight& light, Place place) {
+    for_each_light(4, [](const RoundLight& light, Place place) {
         for (const auto& lobe : kLobes) {
             const Ltc<double> ltc(lobe);
             const auto expected =

@@ -64,7 +64,7 @@ void expect_measures() {
         std::vector<double> errors;
         RandomLights lights(5);
         for (const Shape shape : kShapes) {
-            for (int i = 0; i < 60; ++i) {
+            for (int i = 0; i < 30; ++i) {
                 const RoundLight light = lights(shape, place);
                 const auto expected = static_cast<double>(projected_solid_angle_of(silhouette_of(light)));
                 const auto found = with_light<T>(
@@ -89,7 +89,7 @@ TEST(ConeProjectedSolidAngleTest, MeasuresAreContourIntegrals) {
 
 /// The mean of a smooth function over the density is its integral for any light, also where the interpolant is coarse.
 TEST(ConeProjectedSolidAngleTest, EstimatesAreUnbiasedAndNearlyConstant) {
-    for_each_light(12, [](const RoundLight& light, Place place) {
+    for_each_light(6, [](const RoundLight& light, Place place) {
         const auto expected = static_cast<double>(projected_solid_angle_of(silhouette_of(light)));
         with_light<double>(light, [&](const auto& l) {
             const auto technique = technique_for(l);
