@@ -8,6 +8,7 @@
 
 #include <nusselt/cones/round_lights.h>
 #include <nusselt/core/light_sample.h>
+#include <nusselt/core/trig.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN
