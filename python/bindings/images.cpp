@@ -157,7 +157,8 @@ image::LayeredImage layered_image_of(const py::tuple& parts) {
     if (text.empty()) return image;
     const image::PackedTiles tiles(text);
     if (!(tiles.whole() == image.data))
-        throw std::invalid_argument("the image is a part of a rendering, whose data window must stay as it is");
+        throw std::invalid_argument(
+            "the image is a part of a rendering, whose data window must stay as it is");
     return pack(std::move(image), tiles);
 }
 

@@ -55,8 +55,7 @@ Outcome render_scene(const scene::Scene& scene, const render::RenderSettings& se
     image::Metadata metadata = make_metadata(scene, settings, backend);
     metadata["render_seconds"] = image::metadata_text(outcome.statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(outcome.finished);
-    outcome.image =
-        unpacked(to_layered_image(std::move(frame), scene.film, settings, std::move(metadata)));
+    outcome.image = unpacked(to_layered_image(std::move(frame), scene.film, settings, std::move(metadata)));
     return outcome;
 }
 
