@@ -192,4 +192,4 @@ def test_other_threads_run_meanwhile(room):
     stop.set()
     thread.join()
     # A hundred in a second, of which a machine that is busy with other tests may lose most.
-    assert ticks > 10 * seconds > 3
+    assert ticks > 10 * seconds
