@@ -47,11 +47,13 @@ def build(given):
     else:
         folder = ROOT / f"build/python-{sysconfig.get_python_version()}"
         options = [f"-DPython_EXECUTABLE={sys.executable}"]
+    # The preset would ask for the tests, too: an existing folder keeps what it was configured for.
     if not (folder / "build.ninja").exists():
-        options.append("-DNUSSELT_BUILD_TESTS=OFF")
+        options += ["--preset", "release", "-B", folder, "-DNUSSELT_BUILD_TESTS=OFF"]
+    else:
+        options.append(folder)
     if not (folder / "python/nusselt").is_dir():
-        subprocess.run(["cmake", "--preset", "release", "-B", folder, "-DNUSSELT_BUILD_PYTHON=ON", *options], cwd=ROOT,
-                       check=True)
+        subprocess.run(["cmake", "-DNUSSELT_BUILD_PYTHON=ON", *options], cwd=ROOT, check=True)
     subprocess.run(["cmake", "--build", folder, "--target", "nusselt_python"], cwd=ROOT, check=True)
     return folder / "python/nusselt"
 
