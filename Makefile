@@ -60,7 +60,7 @@ single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
 	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
 
-hlsl-msl: ## the same in HLSL and Metal Shading Language: out/hlsl, out/msl
+hlsl-msl: ## the techniques in HLSL and Metal Shading Language: out/hlsl, out/msl
 	scripts/setup.sh hlsl
 	scripts/build.sh build.ninja
 	cmake -D LIST=build/release/lab/parity/shaders.txt -D OUTPUT=out -P scripts/convert-shaders.cmake

@@ -27,8 +27,9 @@ target_compile_options(nusselt_build_flags INTERFACE
     -fno-math-errno
     # The vectoriser packs neighbouring scalars of long chains, which costs more than it saves (docs/performance.md, entry 16).
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
-    # ccache needs this option for units with precompiled headers.
+    # ccache needs these options for units with precompiled headers.
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+    $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>
     -Wall -Wextra -Wpedantic -Wshadow
     # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>

@@ -41,7 +41,7 @@ function(nusselt_decide option what missing)
         list(JOIN missing " " packages)
         if(NOT ${option} STREQUAL "AUTO")
             message(FATAL_ERROR "${what} cannot be built because these Debian packages are missing: ${packages}\n"
-                "`make test` and `make demo` install what they need on Debian 12 and 13. -D${option}=OFF does without.")
+                "`scripts/setup.sh test` installs them on Debian 12 and 13. -D${option}=OFF does without.")
         endif()
         message(STATUS "${what} are left out because these Debian packages are missing: ${packages}")
         set(decision OFF)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Shows that targets of the Makefile need only a bare Debian 12 or 13 with git and make: creates one in a
-# folder, copies the tree there, runs the targets twice and prints the times. Needs root, debootstrap and the network.
+# folder, copies the tree there, runs the targets twice and prints the times; fails if one of them fails. Needs root, debootstrap and the network.
 # Usage: scripts/check-bare-debian.sh FOLDER bookworm|trixie TARGET...      (trixie is Debian 13)
 #   FOLDER   where the root is created; must not exist. About 3 GB; remove it afterwards.
 #   TARGET   such as demo, check, test
@@ -19,20 +19,29 @@ mirror=${MIRROR:-$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Creat
 [ -n "$mirror" ] || { echo "apt has no mirror of Debian; set MIRROR=..." >&2; exit 1; }
 [ ! -e "$root" ] || { echo "$root exists; use a folder that does not" >&2; exit 1; }
 
-trap '! mountpoint -q "$root/proc" || umount -l "$root/proc"' EXIT
-
 times=()
-# Runs a command and notes its time.
+finish() {
+    ! mountpoint -q "$root/proc" || umount -l "$root/proc"
+    [ ${#times[@]} -eq 0 ] || printf '%s\n' "${times[@]}"
+}
+trap finish EXIT
+
+failed=0
+# Runs a command and notes its time. The next one runs, too, if it fails.
 timed() {
-    local start=$SECONDS
+    local start=$SECONDS result=''
     echo "== $1"
-    "${@:2}"
-    times+=("$(printf '%5d s  %s' $((SECONDS - start)) "$1")")
+    "${@:2}" || { result=', failed' failed=1; }
+    times+=("$(printf '%5d s  %s%s' $((SECONDS - start)) "$1" "$result")")
 }
 inside() { env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin CI="${CI:-}" chroot "$root" "$@"; }
 
 timed "debootstrap" debootstrap --variant=minbase "$suite" "$root" "$mirror" >/dev/null
+[ $failed -eq 0 ] || exit 1
 cp /etc/resolv.conf "$root/etc/"
+# Networks may have certificates of their own.
+mkdir -p "$root/usr/local/share/ca-certificates"
+cp -r /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
 mount -t proc proc "$root/proc"
 
 mkdir "$root/nusselt"
@@ -46,4 +55,4 @@ for run in first second; do
         timed "make $target, $run run" inside make -C /nusselt "$target"
     done
 done
-printf '%s\n' "${times[@]}"
+exit $failed

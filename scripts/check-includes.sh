@@ -19,6 +19,7 @@ BEGIN {
     allow("include/ltc", below)
     below = below " include/random include/bsdf include/ltc"
     allow("include/sampling", below " include/simd")
+    allow("include/cones", below " include/sampling include/simd")
     allow("include/line_samples", below " include/sampling")
     allow("include/related", below " include/sampling include/line_samples")
     below = below " include/sampling include/line_samples include/related"

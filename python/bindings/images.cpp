@@ -5,11 +5,14 @@
 #include "image/flip.h"
 #include "image/io.h"
 #include "image/metrics.h"
+#include "image/packed_tiles.h"
 #include "image/ssim.h"
 
 #include <pybind11/stl.h>
 
+#include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace nusselt::python {
 
@@ -27,6 +30,29 @@ py::tuple to_tuple(const image::Window& window) {
 image::Window window_of(const py::handle& window) {
     const auto [x, y, width, height] = window.cast<std::tuple<int, int, int, int>>();
     return {x, y, width, height};
+}
+
+/// \throws std::invalid_argument if an array does not have the pixels of the window and a number for each channel
+void check_shape(const std::string& name, const py::array& pixels, const image::Window& window,
+                 std::size_t channels) {
+    const auto length = [&](int axis) { return pixels.ndim() == 3 ? pixels.shape(axis) : -1; };
+    if (length(0) == window.height && length(1) == window.width &&
+        length(2) == static_cast<py::ssize_t>(channels))
+        return;
+    throw std::invalid_argument("layer '" + name + "' must have the shape (" + std::to_string(window.height) +
+                                ", " + std::to_string(window.width) + ", " + std::to_string(channels) +
+                                ") of the data window and the names of its channels, not " +
+                                py::str(pixels.attr("shape")).cast<std::string>());
+}
+
+/// \throws std::runtime_error naming the path
+Picture read_picture(const std::string& path) {
+    image::LayeredImage file = image::read_packed_layers(path);
+    try {
+        return unpacked(std::move(file));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error("cannot read image '" + path + "': " + error.what());
+    }
 }
 
 /// \param pixels (height, width, 3)
@@ -92,7 +118,14 @@ void write_image(const std::string& path, const Pixels& pixels, const image::Met
 
 } // namespace
 
-py::tuple to_tuple(image::LayeredImage&& image) {
+Picture unpacked(image::LayeredImage&& file) {
+    const auto tiles = file.metadata.find(image::kTilesKey);
+    std::string text = tiles == file.metadata.end() ? "" : tiles->second;
+    return {unpack(std::move(file)), std::move(text)};
+}
+
+py::tuple to_tuple(Picture&& picture) {
+    image::LayeredImage& image = picture.whole;
     py::list layers;
     for (image::Layer& layer : image.layers) {
         const Channels channels(layer.channels.begin(), layer.channels.end());
@@ -102,32 +135,40 @@ py::tuple to_tuple(image::LayeredImage&& image) {
                            array_of(std::move(layer.data), {image.data.height, image.data.width, count})));
     }
     return py::make_tuple(layers, image.metadata, to_tuple(image.data), to_tuple(image.display),
-                          image.foreign_metadata);
+                          image.foreign_metadata, picture.tiles);
 }
 
 image::LayeredImage layered_image_of(const py::tuple& parts) {
     image::LayeredImage image;
+    image.data = window_of(parts[2]);
+    image.display = window_of(parts[3]);
+    if (py::len(parts[0]) == 0) throw std::invalid_argument("an image must have a layer");
     for (const py::handle& part : parts[0]) {
         const auto [name, channels, data] = part.cast<std::tuple<std::string, Channels, Pixels>>();
+        check_shape(name, data, image.data, channels.size());
         image::Layer& layer = image.layers.emplace_back();
         layer.name = name;
         layer.channels = image::ChannelNames(channels);
         layer.data.assign(data.data(), data.data() + data.size());
     }
     image.metadata = parts[1].cast<image::Metadata>();
-    image.data = window_of(parts[2]);
-    image.display = window_of(parts[3]);
     image.foreign_metadata = parts[4].cast<image::Metadata>();
-    return image;
+    const auto text = parts[5].cast<std::string>();
+    if (text.empty()) return image;
+    const image::PackedTiles tiles(text);
+    if (!(tiles.whole() == image.data))
+        throw std::invalid_argument(
+            "the image is a part of a rendering, whose data window must stay as it is");
+    return pack(std::move(image), tiles);
 }
 
 void bind_images(py::module_& module) {
     module.def("read_layers", [](const std::string& path) {
-        image::LayeredImage image = [&] {
+        Picture picture = [&] {
             const py::gil_scoped_release release;
-            return image::read_layers(path);
+            return read_picture(path);
         }();
-        return to_tuple(std::move(image));
+        return to_tuple(std::move(picture));
     });
     module.def("write_layers", [](const std::string& path, const py::tuple& parts) {
         const image::LayeredImage image = layered_image_of(parts);

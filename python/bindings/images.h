@@ -1,12 +1,12 @@
 #pragma once
 /// Images of the renderer as arrays of numpy.
 
-#include "image/image.h"
 #include "image/layers.h"
 
 #include <pybind11/numpy.h>
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,11 +23,23 @@ pybind11::array_t<Number> array_of(std::vector<Number>&& values, std::vector<pyb
     return pybind11::array_t<Number>(std::move(shape), data, capsule);
 }
 
-/// (layers, metadata, data window, display window, metadata of other programs). Layers are (name, channels, array) with
-/// arrays (height, width, channels); windows are (x, y, width, height).
-pybind11::tuple to_tuple(image::LayeredImage&& image);
+/// An image as users see it: of a part of a rendering, all pixels of the whole.
+struct Picture {
+    image::LayeredImage whole;
+    std::string tiles; ///< which ones a file of it holds (image/packed_tiles.h); empty: all pixels
+};
 
-/// The inverse.
+/// \param file with nothing but its tiles, if it has some
+/// \throws std::runtime_error if the metadata of tiles are damaged
+Picture unpacked(image::LayeredImage&& file);
+
+/// (layers, metadata, data window, display window, metadata of other programs, tiles). Layers are (name, channels, array)
+/// with arrays (height, width, channels); windows are (x, y, width, height).
+pybind11::tuple to_tuple(Picture&& picture);
+
+/// The inverse, as it goes into files: of a part, nothing but its tiles.
+/// \throws std::invalid_argument if a layer does not have the pixels of the data window, or if this is not the one that the
+///                               tiles belong to
 image::LayeredImage layered_image_of(const pybind11::tuple& parts);
 
 } // namespace nusselt::python

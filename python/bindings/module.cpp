@@ -2,7 +2,7 @@
 #include "python/bindings/bindings.h"
 
 PYBIND11_MODULE(_core, module) {
-    module.doc() = "What the package nusselt calls; its functions check nothing.";
+    module.doc() = "What the package nusselt calls; most of its functions check nothing.";
     nusselt::python::bind_techniques(module);
     nusselt::python::bind_functions(module);
     nusselt::python::bind_random(module);

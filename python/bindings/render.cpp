@@ -28,7 +28,7 @@ namespace {
 constexpr std::chrono::milliseconds kInterval(50);
 
 struct Outcome {
-    image::LayeredImage image;
+    Picture image;
     render::RenderStatistics statistics;
     double finished = 0;
     std::vector<std::string> warnings;
@@ -55,8 +55,15 @@ Outcome render_scene(const scene::Scene& scene, const render::RenderSettings& se
     image::Metadata metadata = make_metadata(scene, settings, backend);
     metadata["render_seconds"] = image::metadata_text(outcome.statistics.render_seconds);
     metadata["finished_fraction"] = image::metadata_text(outcome.finished);
-    outcome.image = to_layered_image(std::move(frame), scene.film, settings, std::move(metadata));
+    outcome.image = unpacked(to_layered_image(std::move(frame), scene.film, settings, std::move(metadata)));
     return outcome;
+}
+
+/// As Python's bool(). \throws py::error_already_set if the object has no truth value
+bool truth(const py::object& object) {
+    const int value = PyObject_IsTrue(object.ptr());
+    if (value < 0) throw py::error_already_set();
+    return value != 0;
 }
 
 /// Waits for a rendering and calls Python meanwhile. What that throws, Ctrl-C for example, ends the rendering.
@@ -64,7 +71,8 @@ Outcome wait_for(std::future<Outcome> rendering, Progress& progress, const py::o
     const auto report = [&] {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (callback.is_none()) return;
-        if (callback(progress.fraction.load()).is(py::bool_(false))) progress.cancel = true;
+        const py::object answer = callback(progress.fraction.load());
+        if (!answer.is_none() && !truth(answer)) progress.cancel = true;
     };
     const auto wait = [&] {
         const py::gil_scoped_release release;
@@ -108,7 +116,7 @@ py::tuple render(const EditableScene& edited, const py::dict& arguments, const B
 py::tuple merge(const std::vector<std::pair<std::string, py::tuple>>& images) {
     render::Merger merger;
     for (const auto& [name, parts] : images) merger.add(layered_image_of(parts), name);
-    return to_tuple(merger.result());
+    return to_tuple({merger.result(), ""});
 }
 
 } // namespace

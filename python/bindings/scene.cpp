@@ -107,13 +107,14 @@ EditableScene load(const std::string& path) {
 /// \param name with which messages begin; files that the rig names are looked for beside it
 void apply_rig_text(EditableScene& self, const std::string& text, const std::string& name) {
     const scene::Rig rig = scene::parse_rig(text, name);
-    const py::gil_scoped_release release;
     self.edit([&](Scene& scene) { apply_rig(rig, scene); });
 }
 
 void apply_rig_file(EditableScene& self, const std::string& path) {
-    const py::gil_scoped_release release;
-    const scene::Rig rig = scene::read_rig(path);
+    const scene::Rig rig = [&] {
+        const py::gil_scoped_release release;
+        return scene::read_rig(path);
+    }();
     self.edit([&](Scene& scene) { apply_rig(rig, scene); });
 }
 

@@ -3,17 +3,13 @@
 How high should a lamp hang? A panel above the table of the room that shines down, at five heights with the same power: the
 higher it hangs, the more of the room it reaches, and the more even the light is.
 """
-import pathlib
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 import nusselt
 
 # %% The room without its own lights
-scenes = next(folder / "scenes" for folder in pathlib.Path.cwd().resolve().joinpath("python").parents
-              if (folder / "scenes/room.pbrt").exists())
-room = nusselt.load(scenes / "room.pbrt")
+room = nusselt.load(SCENES / "room.pbrt")  # from run.py: the folder scenes of the repository
 room.edit([{"light": "*", "enabled": False}])
 room.resize(96, 54)
 (x0, y0, z0), (x1, y1, z1) = room.bounds

@@ -3,18 +3,14 @@
 Line samples take whole segments of a light, with exact visibility along them, in place of points. The room of the repository
 with both kinds, against a rendering with many points. Lines cost more; what they are worth is the squared error times the time.
 """
-import pathlib
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 import nusselt
 
 # %% The scene, in a size for a glance
-scenes = next(folder / "scenes" for folder in pathlib.Path.cwd().resolve().joinpath("python").parents
-              if (folder / "scenes/room.pbrt").exists())
-room = nusselt.load(scenes / "room.pbrt")
-room.apply_rig(scenes / "rigs/room-panel.json")
+room = nusselt.load(SCENES / "room.pbrt")  # from run.py: the folder scenes of the repository
+room.apply_rig(SCENES / "rigs/room-panel.json")
 room.resize(96, 54)
 
 # %% Renderings

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Runs the notebooks, which are Python files, and writes each as a page of Markdown with its texts, code, output and plots.
 
-Usage: python/notebooks/run.py FOLDER [NAME...]
-       python/notebooks/run.py --check FOLDER    fails if the pages in a folder do not have the code of the notebooks
-A cell begins with `# %%` and a title. The first string of the file is the introduction.
+Usage: python/notebooks/run.py [--limit SECONDS] FOLDER [NAME...]
+       python/notebooks/run.py --check FOLDER    fails if the pages in a folder have other code or texts than the notebooks
+A cell begins with `# %%` and a title. The first string of the file is the introduction. Code finds the scenes of the repository
+under SCENES. The limit is one for the CPU time of all threads and notebooks, which other programs do not change; on an idle
+machine, they take less than that.
 """
+import argparse
 import ast
 import contextlib
 import io
@@ -29,18 +32,29 @@ def cells(text):
     yield from zip(parts[1::2], parts[2::2])
 
 
-def code_of(page):
-    return "\n".join(re.findall(r"^```python\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL))
+def sources(path):
+    """The texts and code of a page: what does not depend on the machine."""
+    text = path.read_text()
+    parts = [ast.get_docstring(ast.parse(text))]
+    for title, code in cells(text):
+        parts += [code.split('"""', 2)[2]] if title is None else [f"## {title}", code]
+    return [part.strip() for part in parts]
+
+
+def sources_of(page):
+    """The same of a page: all but output and plots."""
+    page = re.sub(r"^```text\n.*?^```\n", "", page, flags=re.MULTILINE | re.DOTALL)
+    page = re.sub(r"^!\[.*\n", "", page, flags=re.MULTILINE)
+    parts = re.split(r"^```python\n(.*?)^```\n", page, flags=re.MULTILINE | re.DOTALL)
+    return [part.strip() for part in parts if part.strip()]
 
 
 def check(folder):
-    """Fails if a page has other code or texts than its notebook, or is missing."""
+    """Fails if a page has other code, titles or another introduction than its notebook, or is missing. Outputs and plots
+    depend on times, and are not compared."""
     for name in NAMES:
         page = folder / f"{name}.md"
-        source = (HERE / f"{name}.py").read_text()
-        code = "\n".join((code.split('"""', 2)[2] if title is None else code).strip() + "\n"
-                         for title, code in cells(source))
-        if not page.exists() or code_of(page.read_text()) != code:
+        if not page.exists() or sources_of(page.read_text()) != sources(HERE / f"{name}.py"):
             sys.exit(f"{page} is not that of python/notebooks/{name}.py; run python/notebooks/run.py {folder}")
 
 
@@ -49,7 +63,7 @@ def run(path, folder):
     text = path.read_text()
     introduction = ast.get_docstring(ast.parse(text))
     page = [introduction, ""]
-    names = {"__name__": "__main__"}
+    names = {"__name__": "__main__", "SCENES": HERE.parents[1] / "scenes"}
     plots = 0
     for title, code in cells(text):
         if title is None:
@@ -72,18 +86,23 @@ def run(path, folder):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    if sys.argv[1] == "--check":
-        return check(pathlib.Path(sys.argv[2]))
-    folder = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--limit", type=float, default=float("inf"))
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("names", nargs="*", metavar="name")
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    if arguments.check:
+        return check(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    names = sys.argv[2:] or NAMES
     plt.show = lambda: None
-    for name in names:
-        begin = time.perf_counter()
+    for name in arguments.names or NAMES:
+        begin = time.process_time()
         (folder / f"{name}.md").write_text(run(HERE / f"{name}.py", folder))
-        print(f"{name}: {time.perf_counter() - begin:.1f} s")
+        print(f"{name}: {time.process_time() - begin:.1f} s")
+    if time.process_time() > arguments.limit:
+        sys.exit(f"the notebooks take {time.process_time():.0f} s of CPU time, more than {arguments.limit:.0f} s")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Types, shapes and memory of arguments: the rules that all functions share."""
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Sequence
 from typing import Any, Union
@@ -25,14 +26,19 @@ def real_type(arguments: Sequence[npt.ArrayLike], dtype: npt.DTypeLike = None) -
     known = [argument if isinstance(argument, (np.ndarray, np.generic, int, float)) else np.asarray(argument)
              for argument in arguments]
     common = np.result_type(*known)
-    if common.kind not in "biuf":
-        raise TypeError(f"numbers are expected, not {common}")
-    return np.dtype(np.float32 if common == np.float32 else np.float64)
+    _check_type(common, "arguments")
+    return np.dtype(np.float32 if common.newbyteorder("=") == np.float32 else np.float64)
+
+
+def _check_type(dtype: np.dtype[Any], name: str) -> None:
+    if dtype.kind not in "biuf" or dtype.itemsize > 8:
+        raise TypeError(f"{name} must be real numbers of at most 64 bits, not {dtype}")
 
 
 def operand(value: npt.ArrayLike, name: str, core: Core, dtype: np.dtype[Any]) -> Array:
     """An array of a type whose last axes have the lengths of core."""
     array = np.asarray(value)
+    _check_type(array.dtype, name)
     if array.shape[array.ndim - len(core):] != core or array.ndim < len(core):
         wanted = "".join(f", {length}" for length in core)
         raise ValueError(f"{name} must have the shape (...{wanted}), not {array.shape}")
@@ -54,16 +60,45 @@ def loop_shape(arrays: Sequence[Array], cores: Sequence[Core], *others: tuple[in
     return np.broadcast_shapes(*shapes, *others)
 
 
+def results(outs: Sequence[Array | None], names: Sequence[str], shapes: Sequence[tuple[int, ...]],
+            dtype: np.dtype[Any]) -> list[Array]:
+    """The arrays of outs, if they fit, and new ones for None."""
+    given: list[tuple[str, Array]] = []
+    for out, name, shape in zip(outs, names, shapes):
+        if out is None:
+            continue
+        _check_out(out, name, shape, dtype)
+        for other_name, other in given:
+            if np.shares_memory(out, other):
+                raise ValueError(f"out: {other_name} and {name} must not share memory")
+        given.append((name, out))
+    return [np.empty(shape, dtype) if out is None else out for out, shape in zip(outs, shapes)]
+
+
 def result(out: Array | None, name: str, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """A new array, or out if that fits."""
-    if out is None:
-        return np.empty(shape, dtype)
+    """The same for one array."""
+    return results([out], [name], [shape], dtype)[0]
+
+
+def _check_out(out: Array, name: str, shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
     if not isinstance(out, np.ndarray) or out.dtype != dtype or out.shape != shape:
         found = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
         raise ValueError(f"out: {name} must be a {dtype} array of the shape {shape}, not {found}")
     if not out.flags.writeable or not out.flags.aligned:
         raise ValueError(f"out: {name} must be writeable and aligned")
-    return out
+    if _repeats(out):
+        raise ValueError(f"out: {name} must have each of its numbers at a place of its own")
+
+
+def _repeats(array: Array) -> bool:
+    """Whether numbers of an array may be at the same address. False for all that indices and transposition make of a new
+    array: there each axis steps over those with smaller strides."""
+    extent = array.itemsize
+    for stride, length in sorted((abs(stride), length) for stride, length in zip(array.strides, array.shape)):
+        if length > 1 and stride < extent:
+            return array.size > 0
+        extent += stride * (length - 1)
+    return False
 
 
 def apart(array: Array, outputs: Sequence[Array]) -> Array:
@@ -75,21 +110,25 @@ def thread_count(threads: Threads) -> int:
     """A number of threads; None stands for one per hardware thread."""
     if threads is None:
         return len(os.sched_getaffinity(0))
-    if threads < 1:
-        raise ValueError(f"threads must be at least 1, or None for all, not {threads}")
-    return int(threads)
+    try:
+        count = operator.index(threads)
+    except TypeError:
+        raise TypeError(f"threads must be a whole number, or None for all, not {threads!r}") from None
+    if not 1 <= count < 2**31:
+        raise ValueError(f"threads must be at least 1 and below 2^31, or None for all, not {count}")
+    return count
 
 
 def call(kernel: str, arguments: Sequence[tuple[str, npt.ArrayLike, Core]],
-         results: Sequence[tuple[str, Core]], outs: Sequence[Array | None], dtype: npt.DTypeLike = None,
+         values: Sequence[tuple[str, Core]], outs: Sequence[Array | None], dtype: npt.DTypeLike = None,
          threads: Threads = 1, table: _core.LtcTable | None = None) -> list[Array]:
-    """Calls a kernel of the compiled module with arguments (name, value, core) and results (name, core)."""
+    """Calls a kernel of the compiled module with arguments (name, value, core). values: (name, core) of its results."""
     real = real_type([value for _, value, _ in arguments], dtype)
     inputs = [random_operand(value, core, real) if name == "u" else operand(value, name, core, real)
               for name, value, core in arguments]
     cores = [core for _, _, core in arguments]
     shape = loop_shape(inputs, cores)
-    outputs = [result(out, name, shape + core, real) for (name, core), out in zip(results, outs)]
+    outputs = results(outs, [name for name, _ in values], [shape + core for _, core in values], real)
     inputs = [np.broadcast_to(flat(apart(array, outputs), core), shape + flat_core(core))
               for array, core in zip(inputs, cores)]
     run = _core.call_float if real == np.float32 else _core.call_double

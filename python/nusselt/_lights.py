@@ -63,9 +63,7 @@ class Technique:
         given = list(out) if out is not None else [None, None, None]
         if len(given) != 3:
             raise ValueError(f"out must have arrays for wi, pdf and p, not {len(given)}")
-        wi = _arrays.result(given[0], "wi", shape + (3,), self.dtype)
-        pdf = _arrays.result(given[1], "pdf", shape, self.dtype)
-        p = _arrays.result(given[2], "p", shape + (3,), self.dtype)
+        wi, pdf, p = _arrays.results(given, ["wi", "pdf", "p"], [shape + (3,), shape, shape + (3,)], self.dtype)
         numbers = np.broadcast_to(_arrays.apart(numbers, (wi, pdf, p)), shape + self._random)
         self._lights.sample(shape, numbers, wi, pdf, p, _arrays.thread_count(threads))
         return Sample(wi, _arrays.scalar_or_array(pdf, given[1]), p)

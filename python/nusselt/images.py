@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,8 @@ class Image:
     data_window: Window
     #: The whole film.
     display_window: Window
+
+    _tiles = ""  # of a part, those that its file holds
 
     def __init__(self, layers: Mapping[str, npt.ArrayLike], channels: Mapping[str, Iterable[str]] | None = None,
                  metadata: Mapping[str, str] | None = None, data_window: Window | None = None,
@@ -59,8 +61,8 @@ class Image:
         return self.layers[""]
 
     def save(self, path: str | os.PathLike[str], *, exposure: float = 0) -> None:
-        """Writes a file: .exr with all layers and metadata; .png, .hdr and .pfm with the picture alone. exposure: stops by
-        which PNG files are brightened."""
+        """Writes a file: .exr with all layers and metadata, of a part its tiles only; .png, .hdr and .pfm with the picture
+        alone. exposure: stops by which PNG files are brightened."""
         name = os.fspath(path)
         if _core.is_exr(name):
             _core.write_layers(name, self._parts())
@@ -70,11 +72,19 @@ class Image:
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Image:
         """Reads all layers of an EXR file. Raises RuntimeError if it is none."""
-        return Image(**_from_parts(_core.read_layers(os.fspath(path))))
+        return Image._of(_core.read_layers(os.fspath(path)))
+
+    @classmethod
+    def _of(cls, parts: tuple[Any, ...]) -> Self:
+        layers, metadata, data_window, display_window, foreign, tiles = parts
+        image = cls({name: data for name, _, data in layers}, {name: channels for name, channels, _ in layers},
+                    metadata, data_window, display_window, foreign)
+        image._tiles = tiles
+        return image
 
     def _parts(self) -> tuple[Any, ...]:
         layers = [(name, self.channels[name], data) for name, data in self.layers.items()]
-        return layers, self.metadata, self.data_window, self.display_window, self.foreign_metadata
+        return layers, self.metadata, self.data_window, self.display_window, self.foreign_metadata, self._tiles
 
     def __repr__(self) -> str:
         height, width = next(iter(self.layers.values())).shape[:2]
@@ -82,18 +92,10 @@ class Image:
         return f"<nusselt.Image {width} x {height}: {names}>"
 
 
-def _from_parts(parts: tuple[Any, ...]) -> dict[str, Any]:
-    layers, metadata, data_window, display_window, foreign = parts
-    return {"layers": {name: data for name, _, data in layers},
-            "channels": {name: channels for name, channels, _ in layers},
-            "metadata": metadata, "data_window": data_window, "display_window": display_window,
-            "foreign_metadata": foreign}
-
-
 def merge(images: Mapping[str, Image]) -> Image:
     """Joins parts or seeds of one rendering. images: by names for messages. Raises RuntimeError if they do not belong
     together or hold the same samples."""
-    return Image(**_from_parts(_core.merge([(name, image._parts()) for name, image in images.items()])))
+    return Image._of(_core.merge([(name, image._parts()) for name, image in images.items()]))
 
 
 def read(path: str | os.PathLike[str]) -> Array:

@@ -15,18 +15,24 @@ def light_random(sampler: str, x: npt.ArrayLike, y: npt.ArrayLike, sample: npt.A
     """Two numbers in [0, 1) for each sample (..., 2), as the renderer takes them.
 
     sampler: independent, sobol, jittered (best for linear lights), stratified (best for line samples), z_sobol or blue_noise.
-    x, y: (...) pixels; sample: (...) numbers from 0 to sample_count - 1; light, pair: streams that are independent.
+    x, y: (...) pixels; sample: (...) numbers from 0 to sample_count - 1, which is at most 2^22, or 2^31 for z_sobol.
+    light, pair: streams that are independent. All are whole numbers below 2^32.
     """
     real = _arrays.real_type([], dtype)
     pixels_and_samples = np.broadcast_arrays(*(_whole(value, name) for value, name in
                                                ((x, "x"), (y, "y"), (sample, "sample"))))
-    if not 1 <= sample_count <= 2**31:
-        raise ValueError(f"sample_count must lie between 1 and 2^31, not {sample_count}")
+    stream = [_whole_number(value, name) for value, name in ((seed, "seed"), (light, "light"), (pair, "pair"))]
+    count = _whole_number(sample_count, "sample_count")
+    bits = 31 if sampler == "z_sobol" else 22
+    if not 1 <= count <= 2**bits:
+        raise ValueError(f"sample_count must lie between 1 and 2^{bits} for sampler {sampler!r}, not {count}")
+    if (pixels_and_samples[2] >= count).any():
+        raise ValueError(f"sample must be below sample_count, which is {count}")
     shape = pixels_and_samples[0].shape
     u = np.empty(shape + (2,), real)
     fill = _core.random_float if real == np.float32 else _core.random_double
     columns = [np.ascontiguousarray(array) for array in pixels_and_samples]
-    fill(sampler, seed, columns[0], columns[1], columns[2], sample_count, light, pair, u)
+    fill(sampler, stream[0], columns[0], columns[1], columns[2], count, stream[1], stream[2], u)
     return u
 
 
@@ -42,3 +48,10 @@ def _whole(value: npt.ArrayLike, name: str) -> Array:
     if array.dtype.kind not in "iu" or (array.size and (array.min() < 0 or array.max() >= 2**32)):
         raise ValueError(f"{name} must be whole numbers from 0 to 2^32 - 1")
     return array.astype(np.uint32)
+
+
+def _whole_number(value: int, name: str) -> int:
+    array = _whole(value, name)
+    if array.ndim > 0:
+        raise ValueError(f"{name} must be one whole number, not an array {array.shape}")
+    return int(array)

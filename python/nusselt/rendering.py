@@ -5,8 +5,8 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from nusselt import _core
-from nusselt.images import Image, _from_parts
+from nusselt import _arrays, _core
+from nusselt.images import Image
 from nusselt.scene import Scene
 
 __all__ = ["Rendering", "render", "setting_names"]
@@ -44,12 +44,13 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
 
     samples: per pixel, light and technique; default: what the scene asks for, or 1.
     layers: names, or "all"; the result has them beside the picture "".
-    part: (number, count), to render the tiles of one part; images.merge() joins parts.
+    part: (number, count), to render the tiles of one part, in the whole image, which is black elsewhere; images.merge()
+        joins parts.
     resolution: (width, height) in pixels in place of that of the scene.
     backend: "cpu", or "vulkan" for a GPU, with `device` (an index or a part of a name) and `shadow_rays`.
     threads: default: one per hardware thread. isa: instruction set; default: NUSSELT_ISA, or the best one.
     progress: called with the share of the work that is done, in this thread, about twenty times a second. If it returns
-        False, the rendering stops, and the image has what is there.
+        False, or anything else that is false but None, the rendering stops, and the image has what is there.
 
     Ctrl-C, and exceptions of `progress`, stop the rendering and are raised. Wrong settings are ValueErrors.
     """
@@ -62,15 +63,14 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
     if resolution is not None:
         scene = scene.copy()
         scene.resize(*resolution)
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads must be at least 1, not {threads}")
     choice = _core.BackendChoice()
-    choice.name, choice.threads, choice.isa = backend, threads, isa
+    choice.name, choice.isa = backend, isa
+    choice.threads = None if threads is None else _arrays.thread_count(threads)
     choice.device, choice.shadow_rays = device, shadow_rays
     parts, statistics, finished, notes = _core.render(scene._scene, settings, choice, progress)
     for note in notes:
         warnings.warn(note, stacklevel=2)
-    image = Rendering(**_from_parts(parts))
+    image = Rendering._of(parts)
     image.statistics = statistics
     image.finished = finished
     return image

@@ -87,6 +87,11 @@ class SlurmTest(unittest.TestCase):
     def array(self):
         return (self.job / "engine-jobs.txt").read_text().split()[0]
 
+    def wait_for_end(self):
+        """Slurm lists the last step for a moment after its end."""
+        cluster.wait_for(lambda: subprocess.run([self.job / "alive.sh"], env=self.cluster.environment).returncode == 1, 60,
+                         "the end of the job")
+
     def wait_for_checkpoint(self, task):
         cluster.wait_for((self.job / "checkpoints" / str(task)).exists, 60, f"a checkpoint of task {task}")
 
@@ -161,11 +166,13 @@ class SlurmTest(unittest.TestCase):
         whole = part.read_bytes()
         part.write_bytes(whole[:-1000])
         (self.folder / "image.exr").unlink()
+        self.wait_for_end()
         code, _, err = self.finish(self.start(4, size, "--run"))
         self.assertEqual(code, 1, err)
         self.assertIn("results/3.exr", err)
         self.assertFalse((self.folder / "image.exr").exists())
         part.unlink()
+        self.wait_for_end()
         others = {name: (self.job / "results" / name).stat().st_mtime_ns for name in ("1.exr", "2.exr", "4.exr")}
         code, _, err = self.finish(self.start(4, size, "--run"))
         self.assertEqual(code, 0, err)

@@ -21,3 +21,15 @@ scene = nusselt.load("$root/scenes/room.pbrt")
 assert nusselt.render(scene, resolution=(16, 9)).rgb.max() > 0
 END
 bin/python -m pip show -q nusselt
+
+# Two wheels have the same bits, without what else lies in the folder of the build.
+touch "$build/python/nusselt/stale.py"
+trap 'rm -f "$build/python/nusselt/stale.py"' EXIT
+for copy in 1 2; do
+    "$python" -c "import sys; sys.path.insert(0, '$root/python'); import nusselt_wheel
+name = nusselt_wheel.build_wheel('wheel$copy', {'build-folder': '$build'}); print(name)" | tail -n 1 >name
+done
+cmp "wheel1/$(cat name)" "wheel2/$(cat name)"
+contents=$("$python" -m zipfile -l "wheel1/$(cat name)")
+grep -q "nusselt/techniques.py" <<<"$contents" && ! grep -q stale <<<"$contents" || { echo "$contents"; exit 1; }
+bin/python -c "import importlib.metadata as m; assert m.metadata('nusselt').get_payload().startswith('# Nusselt')"

@@ -133,3 +133,16 @@ def test_wrong_names_and_numbers_of_random_points_are_errors():
         nusselt.random.points("halton", 4)
     with pytest.raises(ValueError, match="sample must be whole numbers"):
         nusselt.random.light_random("sobol", 0, 0, -1, 4)
+    for message, options in [("seed must be whole numbers from 0 to 2.32 - 1", {"seed": -1}),
+                             ("light must be whole numbers", {"light": 2**40}),
+                             ("pair must be whole numbers", {"pair": 0.5}),
+                             (r"seed must be one whole number, not an array \(2,\)", {"seed": [1, 2]})]:
+        with pytest.raises(ValueError, match=message):
+            nusselt.random.points("sobol", 4, **options)
+    with pytest.raises(ValueError, match="sample must be below sample_count, which is 4"):
+        nusselt.random.light_random("stratified", 0, 0, [0, 4], 4)
+    for sampler, most in [("jittered", 2**22), ("z_sobol", 2**31)]:
+        assert nusselt.random.light_random(sampler, 0, 0, most - 1, most).shape == (2,)
+        for count in (0, most + 1):
+            with pytest.raises(ValueError, match=f"sample_count must lie between 1 and .* for sampler '{sampler}', not {count}"):
+                nusselt.random.light_random(sampler, 0, 0, 0, count)

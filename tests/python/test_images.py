@@ -1,4 +1,5 @@
 """Images in files and metrics, against numpy and against the command."""
+import copy
 import json
 import os
 import subprocess
@@ -46,23 +47,13 @@ def test_metrics_agree_with_numpy_and_the_command(pair, program, tmp_path):
     images.write(tmp_path / "b.exr", reference)
     text = subprocess.run([os.environ["NUSSELT_PROGRAM"], "compare", tmp_path / "a.exr", tmp_path / "b.exr", "--metrics", "all",
                            "--json", "-"], check=True, capture_output=True, text=True).stdout
-    report = json.loads(text)
-    numbers = {key: value for key, value in flatten(report)}
-    assert any(np.isclose(value, metrics["rmse"], rtol=1e-12) for value in numbers.values())
-    for measured in (nusselt.flip(image, reference).mean, images.hdr_flip(image, reference).mean,
-                     images.ssim(image, reference), images.psnr(image, reference)):
-        assert any(np.isclose(value, measured, rtol=1e-9) for value in numbers.values()), (measured, numbers)
-
-
-def flatten(value, name=""):
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            yield from flatten(inner, f"{name}.{key}")
-    elif isinstance(value, list):
-        for inner in value:
-            yield from flatten(inner, name)
-    elif isinstance(value, (int, float)):
-        yield name, value
+    (report,) = json.loads(text)["images"]
+    ours = {**{key: metrics[key] for key in ("mse", "rmse", "relative_rmse", "mae", "rel_mse", "mrse", "compared_pixels")},
+            "mean_image": metrics["mean"], "mean_reference": metrics["mean_of_reference"],
+            "flip": nusselt.flip(image, reference).mean, "hdr_flip": images.hdr_flip(image, reference).mean,
+            "ssim": images.ssim(image, reference), "psnr": images.psnr(image, reference)}
+    assert ours == {key: report[key] for key in ours}
+    assert len(set(ours.values())) == len(ours), "equal numbers could be swapped"
 
 
 def test_flip_maps_show_where_images_differ(pair):
@@ -77,10 +68,24 @@ def test_flip_maps_show_where_images_differ(pair):
 
 def test_wrong_images_are_errors(pair, tmp_path):
     image, reference = pair
+    pixels = reference
     with pytest.raises(RuntimeError, match="32.*16|16.*32"):
         nusselt.rmse(image[:, :16], reference)
     with pytest.raises(ValueError, match=r"\(height, width, 3\), not \(24, 32\)"):
         nusselt.rmse(image[..., 0], reference)
+    layered = nusselt.Image({"": pixels[:, :8], "depth": pixels[:, :8, :1]}, metadata={"samples": "1"})
+    for attribute, value, message in [
+            ("data_window", (0, 0, 9999, 9999), r"layer '' must have the shape \(9999, 9999, 3\) .*, not \(24, 8, 3\)"),
+            ("layers", {"": pixels[:, :8], "depth": pixels[:2]}, r"layer 'depth' must have the shape \(24, 8, 1\)"),
+            ("layers", {"": pixels[0, :8]}, r"layer '' .*, not \(8, 3\)"),
+            ("channels", {"": ["R", "G"], "depth": ["Z"]}, r"shape \(24, 8, 2\)"),
+            ("layers", {}, "an image must have a layer")]:
+        wrong = copy.copy(layered)
+        setattr(wrong, attribute, value)
+        with pytest.raises(ValueError, match=message):
+            images.merge({"wrong": wrong})
+        with pytest.raises(ValueError, match=message):
+            wrong.save(tmp_path / "wrong.exr")
     with pytest.raises(RuntimeError, match="missing.exr"):
         nusselt.Image.load(tmp_path / "missing.exr")
     with pytest.raises(RuntimeError, match="image.gif"):

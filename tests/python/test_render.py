@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -24,11 +25,15 @@ def command(program, path, scene, *options):
     return nusselt.Image.load(path)
 
 
-def assert_same(image, other):
+def assert_same_pixels(image, other):
     assert list(image.layers) and set(image.layers) == set(other.layers)
     for name, data in image.layers.items():
         assert image.channels[name] == other.channels[name], name
         assert np.array_equal(data.view(np.uint32), other.layers[name].view(np.uint32)), name
+
+
+def assert_same(image, other):
+    assert_same_pixels(image, other)
     settings = [{key: text for key, text in i.metadata.items() if key not in WHEN} for i in (image, other)]
     assert settings[0] == settings[1]
 
@@ -79,6 +84,28 @@ def test_parts_join_to_the_whole_image(room):
         nusselt.images.merge({"part 1": parts["part 1"], "again": parts["part 1"]})
 
 
+def test_files_of_parts_are_those_of_the_command(room, scenes, program, tmp_path):
+    paths = [tmp_path / f"{i}.exr" for i in (1, 2)]
+    for i, path in enumerate(paths, 1):
+        nusselt.render(room, 2, resolution=SIZE, layers="all", part=(i, 2)).save(path)
+    part = command(program, tmp_path / "command.exr", scenes / "room.pbrt", "--spp", "2", "--layers", "all", "--part", "2/2")
+    whole = nusselt.render(room, 2, resolution=SIZE, layers="all")
+    assert 0 < (part.rgb == 0).all(axis=2).mean() < 1 and "tiles" not in part.metadata
+    assert paths[1].stat().st_size < 1.05 * (tmp_path / "command.exr").stat().st_size, "both hold their tiles only"
+    for path in paths:
+        nusselt.Image.load(path).save(path)
+    program("merge", *paths, "-o", tmp_path / "whole.exr")
+    assert_same_pixels(nusselt.Image.load(tmp_path / "whole.exr"), whole)
+    loaded = {path.name: nusselt.Image.load(path) for path in paths}
+    assert_same_pixels(nusselt.images.merge(loaded), whole)
+    loaded["2.exr"].rgb[part.rgb > 0] += 1
+    with pytest.raises(RuntimeError, match="2.exr.*not those that were written"):
+        nusselt.images.merge(loaded)
+    part.data_window = (1, 0, *SIZE)
+    with pytest.raises(ValueError, match="a part of a rendering, whose data window must stay"):
+        part.save(paths[1])
+
+
 def test_the_command_has_the_settings_of_python(program):
     help_text = subprocess.run([os.environ["NUSSELT_PROGRAM"], "render", "--help"], check=True, capture_output=True,
                                text=True).stdout
@@ -127,8 +154,9 @@ def test_progress_grows_and_can_stop_a_rendering(room):
     seen = []
     nusselt.render(room, 64, resolution=SIZE, progress=seen.append)
     assert seen == sorted(seen) and seen[-1] == 1
-    image = nusselt.render(room, 1 << 16, progress=lambda fraction: False)
-    assert 0 <= image.finished < 1 and image.metadata["finished_fraction"] != "1"
+    for answer in (False, np.False_, 0):
+        image = nusselt.render(room, 1 << 16, progress=lambda fraction: answer)
+        assert 0 <= image.finished < 1 and image.metadata["finished_fraction"] != "1"
 
 
 def test_exceptions_of_progress_end_the_rendering(room):
@@ -139,26 +167,29 @@ def test_exceptions_of_progress_end_the_rendering(room):
 
 
 def test_ctrl_c_ends_the_rendering(scenes):
-    script = f"import nusselt; s = nusselt.load({str(scenes / 'room.pbrt')!r}); print('begun', flush=True); " \
-             "nusselt.render(s, 1 << 18)"
+    script = f"import nusselt; s = nusselt.load({str(scenes / 'room.pbrt')!r}); tell = iter(['begun']); " \
+             "nusselt.render(s, 1 << 18, progress=lambda _: [print(word, flush=True) for word in tell] or None)"
     child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert child.stdout.readline() == "begun\n"
-    threading.Event().wait(1)
     child.send_signal(signal.SIGINT)
     _, errors = child.communicate(timeout=60)
     assert child.returncode != 0 and "KeyboardInterrupt" in errors
 
 
 def test_other_threads_run_meanwhile(room):
-    ticks = []
+    ticks = 0
     stop = threading.Event()
 
     def tick():
+        nonlocal ticks
         while not stop.wait(0.01):
-            ticks.append(1)
+            ticks += 1
     thread = threading.Thread(target=tick)
     thread.start()
+    begin = time.perf_counter()
     nusselt.render(room, 256, resolution=(128, 72))
+    seconds = time.perf_counter() - begin
     stop.set()
     thread.join()
-    assert len(ticks) > 3
+    # A hundred in a second, of which a machine that is busy with other tests may lose most.
+    assert ticks > 10 * seconds

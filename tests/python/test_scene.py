@@ -1,5 +1,6 @@
 """Scenes: what they contain, and edits of lights, materials and camera."""
 import json
+import threading
 
 import numpy as np
 import pytest
@@ -57,6 +58,21 @@ def test_wrong_edits_are_errors_and_change_nothing(room):
         with pytest.raises(RuntimeError, match=message):
             room.edit([entry])
     assert room.fingerprint == before
+
+
+def test_edits_of_several_threads_all_count(room):
+    before = len(room.lights)
+
+    def edit(name):
+        for i in range(20):
+            room.edit([{"add": f"{name} {i}", "radiance": 5,
+                        "panel": {"center": [0, 1, 0], "normal": [0, -1, 0], "width": 1, "height": 1}}])
+    threads = [threading.Thread(target=edit, args=[name]) for name in "abc"]
+    for thread in threads:
+        thread.start()
+    while any(thread.is_alive() for thread in threads):
+        assert len(room.positions) == len(room.normals.copy()) > 0
+    assert len(room.lights) == before + 60
 
 
 def test_rigs_in_files_are_applied(room, scenes, tmp_path):

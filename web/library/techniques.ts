@@ -31,6 +31,8 @@ export interface Technique {
     readonly lobes?: Lobes;
     /// Whether the mean of many frames differs from the reference.
     readonly isBiased?: boolean;
+    /// Whether its loops remain: unrolled, they take minutes to compile without a GPU.
+    readonly keepsLoops?: boolean;
 }
 
 const area = { polygon: "PolygonArea", line: "LineArea", cylinder: "CylinderArea" };
@@ -79,10 +81,7 @@ export const techniques: readonly Technique[] = [
         source: "Solid angle sampling without the part of the light below the surface" },
     { name: "area", label: "Area", lights: area, source: "Uniform on the light: Turk 1992" },
     { name: "ltc_analytic", label: "LTC in closed form, no shadows", lights: null, isBiased: true,
-        source: "Heitz et al. 2016; tubes: Heitz and Hill 2017" },
-    { name: "rectangle", label: "Solid angle of rectangles", isBiased: true,
-        source: "Ureña et al. 2013, also for lines as thin rectangles, which is biased; cylinders: Gamito 2016",
-        lights: { polygon: "RectangleSolidAngle", line: "LineRectangleUrena", cylinder: "CylinderRejectionGamito" } },
+        keepsLoops: true, source: "Heitz et al. 2016; tubes: Heitz and Hill 2017" },
     { name: "arvo", label: "Solid angle by Arvo", source: "Arvo 1995, for polygons", isBiased: true,
         lights: { ...solidAngle, polygon: "PolygonSolidAngleArvo" } },
     { name: "projected_arvo", label: "Projected solid angle by Arvo", source: "Arvo 2001, for polygons", isBiased: true,
@@ -91,7 +90,7 @@ export const techniques: readonly Technique[] = [
         source: "Six bisections in place of the iteration of Arvo 2001, for polygons",
         lights: { ...projected, polygon: "PolygonProjectedSolidAngleBisection" } },
     { name: "subdivision", label: "Subdivision by Ureña", source: "Ureña 2000, for polygons", isBiased: true,
-        lights: { ...projected, polygon: "PolygonSubdivisionUrena" } },
+        keepsLoops: true, lights: { ...projected, polygon: "PolygonSubdivisionUrena" } },
     { name: "peters", label: "Projected solid angle by Peters", source: "Peters 2021 as published",
         lights: { ...projected, polygon: "PolygonProjectedSolidAnglePeters", line: "LineProjectedSolidAnglePeters" } },
     { name: "peters_solid_angle", label: "Solid angle by Peters", source: "Peters 2021, Sec. 5, as published",

@@ -178,8 +178,7 @@ export class Renderer {
         let program = this.programs.get(key);
         if (program === undefined) {
             const text = this.shaderText(side);
-            // Closed forms clip polygons twice: unrolled, they take minutes to compile without a GPU.
-            const fragment = techniqueOf(side.technique).lights === null ? text : unrollLoops(text);
+            const fragment = techniqueOf(side.technique).keepsLoops ? text : unrollLoops(text);
             program = { pending: this.begin("screen.vert", fragment), isWarm: false, failure: null };
             this.programs.set(key, program);
         }

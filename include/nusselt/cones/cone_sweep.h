@@ -1,0 +1,137 @@
+#pragma once
+/// Sampling of the part of an elliptic cone above a horizon that cuts it, in proportion to the cosine at the surface.
+///
+/// Derived here. A ray sweeps around a pole p on the horizon, in the middle of the horizon's arc in the cone. At an angle
+/// gamma from the pole the cosine times the solid angle is sin^2(gamma) dgamma times the measure of the sweep, so that gamma
+/// follows the inverse cycloid, up to the angle of the rim. The sweep is described by the point of the rim R that it meets:
+///
+///     measure = E(gamma) (n . R) (p . R x dR),  E = (2 gamma - sin(2 gamma)) / (4 sin^3(gamma)).
+///
+/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Three maps
+/// of the rim keep it smooth for large ones: the tangents of angles around the axis are scaled by (b1 / a1)^(3/4), half-way
+/// between the disk of the cone and the ellipse that is its projection along the axis, and those of half-angles from the highest
+/// point by 1 / cos(gamma / 2) there, because rays that almost reach the antipode of the pole turn quickly. 16 places of the
+/// result give its distribution with a backward error of 1e-5 at most for ordinary lights (docs/techniques/elliptic_cone.md).
+
+#include <nusselt/cones/rim_distribution.h>
+#include <nusselt/cones/rim_map.h>
+#if NUSSELT_HAS_VERTEX_LANES
+#include <nusselt/simd/pack.h>
+#endif
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// A direction in an elliptic cone.
+template <class Real>
+struct ConeSample {
+    Vec3<Real> wi;   ///< unit
+    Vec2<Real> disk; ///< the point of the disk of the cone
+};
+
+/// \tparam Real float, double, long double or a pack.
+///
+/// The horizon is z = 0. Valid for cones that the horizon cuts; others give a measure of 0 or any density.
+template <class Real>
+class ConeSweep {
+    using Distribution = RimDistribution<Real>;
+    static constexpr int kNodes = Distribution::kNodes;
+
+public:
+    ConeSweep() = default;
+
+    /// \param cone with a visible part above the horizon.
+    NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
+        Real value[kNodes];
+        densities(value);
+        rim_ = Distribution(value);
+        const Real measure = rim_.integral() * map_.scale();
+        const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
+        const auto positive = measure > Real(0);
+        const auto fits = is_finite(inverse);
+        const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
+        measure_ = select(lit, measure, Real(0));
+        inverse_measure_ = select(lit, inverse, Real(0));
+    }
+
+    template <class Single>
+    NUSSELT_HD explicit ConeSweep(const ConeSweep<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    /// \param u in [0, 1)^2; u.x turns around the pole, u.y leads away from it.
+    NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
+        const auto turn = map_.turned(rim_.invert(u.x));
+        const auto& rim = turn.rim;
+        const auto angle = map_.angle_of(rim);
+        const Real fraction = cycloid_fraction(angle.value, angle.sine, angle.cosine);
+        const Real gamma = inverse_cycloid(u.y, angle.value, fraction);
+        const auto s = sincos_half_turn(gamma);
+        const auto rest = sincos_half_turn(max(angle.value - gamma, Real(0)));
+
+        // The direction in the plane of pole and rim, of which the normal keeps its height.
+        const Vec3<Real> away = normalize(Vec3<Real>{rim.aside, rim.up, Real(0)});
+        Vec3<Real> wi = s.cos * map_.p() + (s.sin * away.x) * map_.h();
+        wi.z = s.sin * away.y;
+        // The rim is the end of the way from the pole to it.
+        const Real near = map_.distance() * s.sin;
+        const Real share =
+            min(detail::over_positive(near, multiply_add(rim.length, rest.sin, near)), Real(1));
+        return {wi, map_.towards(rim, share)};
+    }
+
+    /// The density of a unit direction in the cone over its cosine [1/sr].
+    NUSSELT_HD Real density_per_cosine(const Vec3<Real>& wi) const noexcept {
+        if (all(rim_.is_exact())) return inverse_measure_;
+        const auto turn = map_.turned(map_.place_of(wi));
+        const Real ratio = detail::over_positive(rim_.value(turn.z), map_.density(turn));
+        return select(rim_.is_exact(), Real(1), ratio) * inverse_measure_;
+    }
+
+    /// The random numbers for which sample() returns a unit direction in the cone.
+    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
+        const auto turn = map_.turned(map_.place_of(wi));
+        const auto angle = map_.angle_of(turn.rim);
+        const Real across = detail::hypotenuse(dot(wi, map_.h()), wi.z), along = dot(wi, map_.p());
+        const Real gamma = min(atan2_positive(across, along), angle.value);
+        const Real share = detail::over_positive(gamma, angle.value);
+        const Real inner = cycloid_fraction(gamma, across, along);
+        const Real outer = cycloid_fraction(angle.value, angle.sine, angle.cosine);
+        const Real integral = rim_.integral();
+        return {below_one(detail::over_positive(rim_.below(turn.z), integral)),
+                below_one(share * share * share * (inner / outer))};
+    }
+
+    /// Projected solid angle of the part above the horizon [sr].
+    NUSSELT_HD Real measure() const noexcept { return measure_; }
+
+private:
+    /// The densities at all nodes. Scalar code takes the nodes as lanes, which have the bits of scalars.
+    NUSSELT_HD void densities(Real (&value)[kNodes]) const noexcept {
+#if NUSSELT_HAS_VERTEX_LANES
+        if constexpr (std::is_same_v<Real, float>) {
+            constexpr int kLanes = 8;
+            using Lanes = Pack<float, kLanes>;
+            const RimMap<Lanes> map(map_);
+            float node[kNodes];
+            for (int i = 0; i < kNodes; ++i) node[i] = Distribution::node(i);
+            NUSSELT_UNROLL
+            for (int i = 0; i < kNodes; i += kLanes)
+                map.density(map.turned(Lanes::load(node + i))).store(value + i);
+            return;
+        }
+#endif
+        for (int i = 0; i < kNodes; ++i) value[i] = map_.density(map_.turned(Real(Distribution::node(i))));
+    }
+
+    RimMap<Real> map_;
+    Distribution rim_;
+    Real measure_, inverse_measure_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.map_, self.rim_, self.measure_, self.inverse_measure_);
+    }
+};
+
+NUSSELT_NAMESPACE_END

@@ -1,0 +1,267 @@
+#pragma once
+/// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
+/// cone_sweep.h.
+
+#include <nusselt/cones/cycloid.h>
+#include <nusselt/cones/elliptic_cone.h>
+
+NUSSELT_NAMESPACE_BEGIN
+
+/// \tparam Real float, double, long double or a pack.
+///
+/// The horizon is z = 0. Lanes whose cone it does not cut have is_cut() false and any numbers.
+template <class Real>
+class RimMap {
+    using Scalar = scalar_t<Real>;
+
+public:
+    /// A point of the rim.
+    struct Rim {
+        Vec2<Real> disk; ///< across and up from the axis
+        Real length, along, aside,
+            up; ///< of its direction, which is not of unit length, and in the basis p, h, n
+    };
+    struct Angle {
+        Real value, sine, cosine;
+    };
+    /// A point of the rim as a function of z in [-1, 1].
+    struct Turn {
+        Real z;
+        Rim rim;
+        Real clearance; ///< height above the horizon in the disk
+        Real jacobian;  ///< angle in the disk per angle of the map
+    };
+
+    RimMap() = default;
+
+    NUSSELT_HD explicit RimMap(const EllipticCone<Real>& cone) noexcept {
+        // A half-space is a cone with a large angle; so nothing is infinite.
+        constexpr Scalar kNarrowest = 8 * std::numeric_limits<Scalar>::epsilon();
+        a_ = cone.a;
+        b_ = cone.b;
+        c_ = max(cone.c, Real(kNarrowest));
+
+        // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
+        const Real na = cone.e1.z * a_, nb = cone.e2.z * b_, nc = cone.e3.z * c_;
+        const Real k = detail::hypotenuse(na, nb);
+        const auto crosses = abs(nc) < k;
+        const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
+        is_cut_ = crosses & wide;
+        const Real inverse_k = Real(1) / select(is_cut_, k, Real(1));
+        up_ = {select(is_cut_, na * inverse_k, Real(1)), select(is_cut_, nb * inverse_k, Real(0))};
+        const Real lower = (k - nc) * inverse_k, upper = (k + nc) * inverse_k; // 1 - h0 and 1 + h0
+        height_ = nc * inverse_k;
+        const Real half_arc = sqrt(max(lower * upper, Real(0)));
+        squared_tangent_ = upper / max(lower, Real(std::numeric_limits<Scalar>::epsilon() / 16));
+
+        // Find the pole, where the bisector of both ends of the horizon's arc meets it.
+        const Vec3<Real> across{-a_ * up_.y, b_ * up_.x, Real(0)};
+        const Vec3<Real> upwards{a_ * up_.x, b_ * up_.y, Real(0)};
+        const Vec3<Real> middle{-height_ * upwards.x, -height_ * upwards.y, c_};
+        const Real to_ends = length(middle + half_arc * across) + length(middle - half_arc * across);
+        const Real tilt = height_ * ((a_ - b_) * (a_ + b_)) * (up_.x * up_.y);
+        const Real relative = half_arc / select(to_ends > Real(0), to_ends, Real(1));
+        pole_ = Real(-4) * relative * relative * tilt;
+        power_ = max((half_arc - pole_) * (half_arc + pole_), Real(0));
+        const Vec3<Real> q = middle + pole_ * across;
+        distance_ = length(q);
+        const Real inverse_distance = detail::over_positive(Real(1), distance_);
+        const Vec3<Real> p = inverse_distance * q;
+
+        // Express directions of the disk in the basis of the horizontal h and the normal.
+        const Vec3<Real> in_world = p.x * cone.e1 + p.y * cone.e2 + p.z * cone.e3;
+        p_ = normalize(Vec3<Real>{in_world.x, in_world.y, Real(0)});
+        const Vec3<Real> aside{-p_.y, p_.x, Real(0)};
+        const Vec3<Real> h{dot(aside, cone.e1), dot(aside, cone.e2), dot(aside, cone.e3)};
+        const Real sign = select(dot(h, across) < Real(0), Real(-1), Real(1));
+        h_ = sign * aside;
+        shear_ = sign * dot(h, upwards);
+        narrowing_ = (c_ * inverse_distance) * (a_ * b_ * inverse_k);
+        slope_ = select(is_cut_, k, Real(1));
+        along_across_ = dot(p, across);
+        along_up_ = dot(p, upwards);
+
+        // Choose the map of the rim.
+        const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);
+        squeeze_ = sqrt(ratio * sqrt(ratio));
+        const Vec2<Real> squeezed{up_.x, squeeze_ * up_.y};
+        mid_length_ = detail::hypotenuse(squeezed.x, squeezed.y);
+        mid_ = (Real(1) / mid_length_) * squeezed;
+        const Rim top = rim_at({Real(0), Real(1)}, upper);
+        const Real cosine = max(top.along / top.length, Real(-1));
+        stretch_ = Real(1) / sqrt(max(Real(0.5) * (Real(1) + cosine),
+                                      Real(64 * std::numeric_limits<Scalar>::epsilon())));
+        left_ = end_of_arc(-half_arc);
+        const Real right = end_of_arc(half_arc);
+        half_range_ = Real(0.5) * (right - left_);
+    }
+
+    template <class Single>
+    NUSSELT_HD explicit RimMap(const RimMap<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    NUSSELT_HD const mask_t<Real>& is_cut() const noexcept { return is_cut_; }
+    /// Unit and horizontal: to the pole, and perpendicular to it.
+    NUSSELT_HD const Vec3<Real>& p() const noexcept { return p_; }
+    NUSSELT_HD const Vec3<Real>& h() const noexcept { return h_; }
+    /// Of the pole from the origin, as a point of the cone.
+    NUSSELT_HD const Real& distance() const noexcept { return distance_; }
+    /// The measure of the sweep over the integral of density() over z.
+    NUSSELT_HD Real scale() const noexcept { return narrowing_ * slope_ * slope_ * half_range_; }
+
+    /// The point of the disk of the cone on the way from the pole to a point of the rim.
+    NUSSELT_HD Vec2<Real> towards(const Rim& rim, const Real& share) const noexcept {
+        const Vec2<Real> from{pole_, -height_};
+        const Vec2<Real> disk = from + share * (rim.disk - from);
+        return {disk.y * up_.x - disk.x * up_.y, disk.y * up_.y + disk.x * up_.x};
+    }
+
+    NUSSELT_HD static Angle angle_of(const Rim& rim) noexcept {
+        const Real inverse = Real(1) / rim.length;
+        const Real sine = detail::hypotenuse(rim.aside, rim.up) * inverse;
+        const Real cosine = rim.along * inverse;
+        return {atan2_positive(sine, cosine), sine, cosine};
+    }
+
+    /// \param z in [-1, 1]
+    NUSSELT_HD Turn turned(const Real& z) const noexcept {
+        // Undo the stretch of half-angles.
+        const Real zeta = multiply_add(half_range_, z + Real(1), left_);
+        const auto half = sincos_quarter_turn_with_sign(Real(0.5) * zeta);
+        const Real x = stretch_ * half.cos;
+        const Real squared = multiply_add(x, x, half.sin * half.sin);
+        const Real inverse = Real(1) / squared;
+        const Real cosine = (x - half.sin) * (x + half.sin) * inverse;
+        const Real sine = Real(2) * x * half.sin * inverse;
+
+        // Undo the squeeze. The sine of the angle from the highest point is accurate relative to itself.
+        const Vec2<Real> turned{mid_.x * cosine - mid_.y * sine, mid_.y * cosine + mid_.x * sine};
+        const Vec2<Real> angle{squeeze_ * turned.x, turned.y};
+        const Real squared_length = dot(angle, angle);
+        const Real inverse_length = Real(1) / sqrt(squared_length);
+        const Real across = inverse_length * mid_length_ * sine;
+        const Real up = inverse_length * (angle.x * up_.x + angle.y * up_.y);
+
+        // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
+        const auto below = up < Real(0);
+        const Real positive = max(abs(across), Real(std::numeric_limits<Scalar>::epsilon()));
+        const Real t = select(below, Real(1) - up, across) / select(below, positive, Real(1) + up);
+        const Real s = min(t * t, squared_tangent_);
+        const Real clearance =
+            Real(2) * (squared_tangent_ - s) / ((Real(1) + s) * (Real(1) + squared_tangent_));
+
+        Turn result;
+        result.z = z;
+        result.rim = rim_at({across, up}, clearance);
+        result.clearance = clearance;
+        result.jacobian = (stretch_ * inverse) * (squeeze_ * inverse_length * inverse_length);
+        return result;
+    }
+
+    /// The measure of the sweep per z, up to a constant.
+    NUSSELT_HD Real density(const Turn& turn) const noexcept {
+        const Rim& rim = turn.rim;
+        const Angle angle = angle_of(rim);
+        const CycloidRatio<Real> ratio = cycloid_ratio(angle.value, angle.sine, angle.cosine);
+        const Real cosine = select(ratio.is_small, angle.cosine, Real(1));
+        const Real weight = Real(0.25) * ratio.value / (cosine * cosine * cosine);
+        const Real volume = max(Real(1) + height_ * rim.disk.y - pole_ * rim.disk.x, Real(0));
+        const Real inverse = Real(1) / rim.length;
+        return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
+    }
+
+    /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
+    NUSSELT_HD Real place_of(const Vec3<Real>& wi) const noexcept {
+        // The ray in the disk, scaled to order one.
+        const Real up = max(wi.z, Real(0)), aside = dot(wi, h_);
+        Vec2<Real> ray{aside - (shear_ / slope_) * up, (narrowing_ / slope_) * up};
+        const Real extent = max(abs(ray.x), ray.y);
+        const Real scale = reciprocal_power_of_two(extent);
+        ray = scale * ray;
+        const Real squared = dot(ray, ray);
+        const auto meets = squared > Real(0);
+        ray = select(meets, ray, Vec2<Real>{Real(0), Real(1)});
+        const Real safe = select(meets, squared, Real(1));
+
+        // The larger root of the distance to the rim, in the form without cancellation.
+        const Real half = multiply_add(pole_, ray.x, -height_ * ray.y);
+        const Real root = sqrt(max(multiply_add(half, half, safe * power_), Real(0)));
+        const auto inwards = half <= Real(0);
+        const Real reach =
+            select(inwards, (root - half) / safe, power_ / select(inwards, Real(1), half + root));
+        const Vec2<Real> point{multiply_add(reach, ray.x, pole_), multiply_add(reach, ray.y, -height_)};
+
+        // Apply the squeeze and the stretch.
+        const Vec2<Real> end{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
+        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
+        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
+        const Real x = dot(squeezed, mid_);
+        const Real y = squeeze_ * abs(point.x) / mid_length_;
+        const auto wide = x < Real(0);
+        const Real angle =
+            Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
+        const Real zeta = copysign(angle, point.x);
+        const Real z = detail::over_positive(zeta - left_, half_range_) - Real(1);
+        return min(max(z, Real(-1)), Real(1));
+    }
+
+private:
+    /// \param disk      a point of the unit circle, across and up from the axis.
+    /// \param clearance its height above the horizon.
+    NUSSELT_HD Rim rim_at(const Vec2<Real>& disk, const Real& clearance) const noexcept {
+        const Real s = a_ * (disk.y * up_.x - disk.x * up_.y);
+        const Real t = b_ * (disk.y * up_.y + disk.x * up_.x);
+        const Real offset = disk.x - pole_;
+        const Real along = multiply_add(along_across_, offset, multiply_add(along_up_, clearance, distance_));
+        return {disk, sqrt(multiply_add(s, s, multiply_add(t, t, c_ * c_))), along,
+                multiply_add(narrowing_, offset, shear_ * clearance), slope_ * clearance};
+    }
+
+    /// The angle of the map at an end of the horizon's arc.
+    /// \param sine of the angle in the disk from the highest point.
+    NUSSELT_HD Real end_of_arc(const Real& sine) const noexcept {
+        // Its cosine is -h0. Turned by the squeeze, sine and cosine are those below, up to a common factor.
+        const Vec2<Real> end{-height_ * up_.x - sine * up_.y, -height_ * up_.y + sine * up_.x};
+        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
+        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
+        const Real x = dot(squeezed, mid_);
+        const Real y = squeeze_ * abs(sine) / mid_length_;
+        // The tangent of the half of the angle, from the sum that does not cancel.
+        const auto wide = x < Real(0);
+        const Real angle =
+            Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
+        return copysign(angle, sine);
+    }
+
+    NUSSELT_HD static SinCos<Real> sincos_quarter_turn_with_sign(const Real& angle) noexcept {
+        const auto s = sincos_half_turn(abs(angle));
+        return {copysign(s.sin, angle), max(s.cos, Real(0))};
+    }
+
+    Real a_, b_, c_;
+    Vec2<Real> up_;        ///< in the disk, away from the horizon
+    Real height_;          ///< of the axis above the horizon in the disk
+    Real squared_tangent_; ///< of a quarter of the angle of the arc above the horizon
+    Real pole_;            ///< across
+    Real power_;           ///< of the pole: 1 minus its squared distance from the axis
+    Real distance_;        ///< of the pole, as a point of the cone
+    Vec3<Real> p_, h_;     ///< unit and horizontal: to the pole, and perpendicular to it
+    Real shear_, narrowing_, slope_, along_across_, along_up_; ///< from the disk to p, h and n
+    Real squeeze_, stretch_;
+    Vec2<Real> mid_; ///< the highest point after the squeeze
+    Real mid_length_;
+    Real left_, half_range_; ///< angles of the map
+    mask_t<Real> is_cut_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.squared_tangent_, self.pole_,
+              self.power_, self.distance_, self.p_, self.h_, self.shear_, self.narrowing_, self.slope_,
+              self.along_across_, self.along_up_, self.squeeze_, self.stretch_, self.mid_, self.mid_length_,
+              self.left_, self.half_range_, self.is_cut_);
+    }
+};
+
+NUSSELT_NAMESPACE_END

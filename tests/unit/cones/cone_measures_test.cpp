@@ -1,0 +1,187 @@
+/// Tests of spheres, disks, ellipses and ellipsoids by solid angle and by lobes, and of analytic shading with them.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/cones/cone_shading.h>
+
+#include "cones/round_cases.h"
+
+namespace nusselt_test {
+namespace {
+
+using nusselt::ConeLtc;
+using nusselt::ConeProjectedSolidAngle;
+using nusselt::ConeSolidAngle;
+using nusselt::Ltc;
+using nusselt::LtcCoefficients;
+using nusselt::Vec2;
+
+template <class T, template <class> class Light>
+ConeSolidAngle<T, Light> by_solid_angle(const Light<T>& light) {
+    return ConeSolidAngle<T, Light>(light);
+}
+template <class T, template <class> class Light>
+ConeLtc<T, Light> by_lobe(const Light<T>& light, const Ltc<T>& ltc) {
+    return ConeLtc<T, Light>(light, ltc);
+}
+
+template <class Function>
+void for_each_light(int count, const Function& f) {
+    RandomLights lights(7);
+    for (const Place place : {Place::ordinary, Place::at_horizon, Place::near, Place::elongated})
+        for (const Shape shape : kShapes)
+            for (int i = 0; i < count; ++i) f(lights(shape, place), place);
+}
+
+/// The solid angle as the flux of 1 / (1 + w.z) curl: the area between the rim and the zenith, for cones that have not the nadir.
+/// 1 - cos integrated over the azimuth.
+long double solid_angle_of(const Silhouette& s) {
+    // Around the axis of the ellipse's centre, the cone is star-shaped.
+    const Point axis = normalize(s.center);
+    const Point a =
+        normalize(std::fabs(axis.z) < 0.7L ? cross(axis, Point{0, 0, 1}) : cross(axis, Point{1, 0, 0}));
+    const Point b = cross(axis, a);
+    constexpr int kCount = 5000;
+    long double sum = 0;
+    for (int i = 0; i < kCount; ++i) {
+        const long double angle = 2 * kPi * (i + 0.5L) / kCount;
+        const Point q = s.center + std::cos(angle) * s.u + std::sin(angle) * s.v;
+        const Point slope = std::cos(angle) * s.v - std::sin(angle) * s.u;
+        const long double x = dot(q, a), y = dot(q, b), z = dot(q, axis);
+        const long double turn = (x * dot(slope, b) - y * dot(slope, a)) / (x * x + y * y);
+        sum += (1 - z / length(q)) * turn * 2 * kPi / kCount;
+    }
+    return std::fabs(sum);
+}
+
+TEST(ConeSolidAngleTest, EstimatesAreUnbiasedAndNearlyConstant) {
+    for_each_light(5, [](const RoundLight& light, Place place) {
+        const auto expected = static_cast<double>(solid_angle_of(silhouette_of(light)));
+        with_light<double>(light, [&](const auto& l) {
+            const auto technique = by_solid_angle(l);
+            constexpr int kSide = 64;
+            double sum = 0, least = 1e9, largest = 0;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const Vec2<double> u{(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide};
+                const auto s = technique.sample(u);
+                ASSERT_GT(s.pdf, 0);
+                sum += 1 / s.pdf / (kSide * kSide);
+                least = std::min(least, 1 / s.pdf);
+                largest = std::max(largest, 1 / s.pdf);
+                if (i % 37 == 0) {
+                    const auto inverse = technique.invert(s.wi);
+                    EXPECT_NEAR(inverse.x, u.x, 1e-9);
+                    EXPECT_NEAR(inverse.y, u.y, 1e-9);
+                }
+            }
+            const bool is_coarse = place == Place::near || place == Place::elongated;
+            const double tolerance = is_coarse ? 1e-4 : 2e-5;
+            EXPECT_NEAR(sum / expected, 1, tolerance) << static_cast<int>(place);
+            EXPECT_GE(least / expected, 0.99);
+            EXPECT_LE(largest / expected, 1.015);
+        });
+    });
+}
+
+TEST(ConeSolidAngleTest, SpheresHaveConstantDensities) {
+    const nusselt::Sphere<float> sphere{{0.5f, -2, 1}, 0.75f};
+    const auto technique = by_solid_angle(sphere);
+    const double cosine = std::sqrt(1 - 0.75 * 0.75 / 5.25);
+    EXPECT_NEAR(technique.measure(), 2 * static_cast<double>(kPi) * (1 - cosine), 1e-6);
+    EXPECT_NEAR(technique.sample({0.1f, 0.9f}).pdf * technique.measure(), 1, 1e-6);
+    // From inside, all of the sphere of directions.
+    const nusselt::Sphere<double> around{{0.25, 0.5, -0.25}, 1};
+    const auto inside = by_solid_angle(around);
+    EXPECT_NEAR(inside.measure(), 4 * static_cast<double>(kPi), 1e-12);
+    for (const double y : {0.1, 0.4, 0.8}) {
+        const auto s = inside.sample({0.3, y});
+        EXPECT_NEAR(length(s.p - around.center), 1, 1e-12);
+        EXPECT_NEAR(inside.invert(s.wi).y, y, 1e-12);
+        EXPECT_NEAR(inside.invert(s.wi).x, 0.3, 1e-12);
+    }
+}
+
+const LtcCoefficients<double> kLobes[] = {
+    {1, 0, 1, 0, 1, 1}, {0.35, -0.08, 0.4, 0.05, 0.9, 1}, {0.06, -0.3, 0.08, 0.4, 0.7, 1}};
+
+/// The silhouette in cosine space.
+Silhouette image_of(const Silhouette& s, const LtcCoefficients<double>& c) {
+    const auto map = [&](const Point& p) {
+        return Point{c.m00 * p.x + c.m02 * p.z, c.m11 * p.y, c.m20 * p.x + c.m22 * p.z};
+    };
+    return {map(s.center), map(s.u), map(s.v)};
+}
+
+TEST(ConeLtcTest, EstimatesAndShadingAreContourIntegralsInCosineSpace) {
+    for_each_light(4, [](const RoundLight& light, Place place) {
+        for (const auto& lobe : kLobes) {
+            const Ltc<double> ltc(lobe);
+            const auto expected =
+                static_cast<double>(projected_solid_angle_of(image_of(silhouette_of(light), lobe)) / kPi);
+            with_light<double>(light, [&](const auto& l) {
+                const auto technique = by_lobe(l, ltc);
+                const double shading = round_lobe_integral(l, ltc);
+                if (expected < 1e-6) return;
+                constexpr int kSide = 64;
+                double sum = 0;
+                for (int i = 0; i < kSide * kSide; ++i) {
+                    const Vec2<double> u{(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide};
+                    const auto s = technique.sample(u);
+                    if (s.pdf > 0) sum += ltc.density(s.wi) / s.pdf / (kSide * kSide);
+                    EXPECT_EQ(s.pdf, technique.pdf(s.wi));
+                    if (i % 67 == 0) {
+                        const auto inverse = technique.invert(s.wi);
+                        EXPECT_NEAR(inverse.x, u.x, 1e-6);
+                        EXPECT_NEAR(inverse.y, u.y, 1e-6);
+                    }
+                }
+                const bool is_coarse = place == Place::near || place == Place::elongated;
+                EXPECT_NEAR(sum / expected, 1, is_coarse ? 4e-3 : 1e-4);
+                EXPECT_NEAR(shading / expected, 1, is_coarse ? 4e-2 : 1e-4);
+            });
+        }
+    });
+}
+
+TEST(ConeLtcTest, PointsLieOnTheLightAndAlongDirections) {
+    for_each_light(6, [](const RoundLight& light, Place) {
+        for (const auto& lobe : kLobes) {
+            with_light<float>(light, [&](const auto& l) {
+                const auto technique =
+                    by_lobe(l, Ltc<float>({static_cast<float>(lobe.m00), static_cast<float>(lobe.m02),
+                                           static_cast<float>(lobe.m11), static_cast<float>(lobe.m20),
+                                           static_cast<float>(lobe.m22), 1}));
+                for (int i = 0; i < 9; ++i) {
+                    const auto s = technique.sample(
+                        {(static_cast<float>(i % 3) + 0.5f) / 3, (static_cast<float>(i / 3) + 0.5f) / 3});
+                    if (!(s.pdf > 0)) continue;
+                    double coordinate[3];
+                    const auto p = nusselt::broadcast<double>(s.p);
+                    for (int k = 0; k < 3; ++k)
+                        coordinate[k] =
+                            dot(p - light.center, light.axis[k]) / dot(light.axis[k], light.axis[k]);
+                    const auto [x, y, z] = coordinate;
+                    const bool is_solid = light.shape == Shape::sphere || light.shape == Shape::ellipsoid;
+                    EXPECT_LE(is_solid ? std::fabs(std::sqrt(x * x + y * y + z * z) - 1) : std::fabs(z),
+                              2e-2);
+                    EXPECT_LE(length(cross(s.wi, s.p)), 1e-5f * length(s.p));
+                }
+            });
+        }
+    });
+}
+
+TEST(ConeLtcTest, WithoutATransformItIsTheCosine) {
+    const nusselt::Disk<double> disk{{0.3, 0.9, 0.2}, normalize(nusselt::Vec3<double>{1, 2, 2}), 0.5};
+    const auto lobe = by_lobe(disk, Ltc<double>(kLobes[0]));
+    const ConeProjectedSolidAngle<double, nusselt::Disk> cosine(disk);
+    EXPECT_NEAR(lobe.measure() * static_cast<double>(kPi) / cosine.measure(), 1, 1e-7);
+    EXPECT_NEAR(round_diffuse_integral(disk) / lobe.measure(), 1, 1e-7);
+    const auto s = lobe.sample({0.3, 0.7});
+    EXPECT_NEAR(s.pdf / cosine.pdf(s.wi), 1, 1e-6);
+}
+
+} // namespace
+} // namespace nusselt_test
