@@ -101,5 +101,58 @@ lightsOfMany.update();
 assert.equal(lightsOfMany.triangleCount, 3200 + 1520 + 360);
 checkHierarchy(lightsOfMany.occluders);
 
+// Thousands of triangles in one place take neither long nor a deep stack.
+const piled = new Scene();
+for (let i = 0; i < 1000; ++i) piled.add(caster(box));
+const lightsOfPile = new AreaLights(piled);
+const begin = performance.now();
+lightsOfPile.update();
+assert.ok(performance.now() - begin < 5000);
+checkHierarchy(lightsOfPile.occluders);
+
+// Lights of no extent and with numbers that are not finite do not shine, and numbers in uniforms stay finite.
+const flat = new Scene();
+const flatLights = new AreaLights(flat);
+const countOf = () => {
+    flatLights.update();
+    for (const { value } of Object.values(flatLights.uniforms))
+        if (value instanceof Float32Array) assert.ok(value.every(Number.isFinite));
+    return flatLights.uniforms.polygon_count.value + flatLights.uniforms.line_count.value;
+};
+for (const [make, edits] of [
+    [() => new RectAreaLight(0xffffff, 1, 2, 1), [{ width: 0 }, { height: NaN }, { width: Infinity }, { intensity: NaN }]],
+    [() => new TubeLight(0xffffff, 1, 1, 0.1), [{ length: 0 }, { length: NaN }, { radius: -1 }, { radius: NaN }, { intensity: Infinity }]],
+]) {
+    const light = make();
+    flat.add(light);
+    assert.equal(countOf(), 1);
+    for (const edit of edits) {
+        const before = Object.fromEntries(Object.keys(edit).map(name => [name, light[name]]));
+        Object.assign(light, edit);
+        assert.equal(countOf(), 0, JSON.stringify(Object.entries(edit)));
+        Object.assign(light, before);
+    }
+    light.scale.set(0, 0, 0);
+    light.updateMatrixWorld();
+    assert.equal(countOf(), 0);
+    flat.remove(light);
+}
+for (const [given, kept] of [[3, 3], [0, 1], [0.5, 1], [-1, 1], [NaN, 1], [2.4, 2]]) {
+    flatLights.samples = given;
+    assert.equal(flatLights.samples, kept);
+}
+
+// A material has the lights of one object, and gets its own program back.
+const lit = caster(box);
+flat.add(lit);
+const hook = lit.material.onBeforeCompile;
+flatLights.add(flat);
+assert.notEqual(lit.material.onBeforeCompile, hook);
+assert.throws(() => new AreaLights(flat).add(flat), /has other area lights; dispose\(\) of them first/);
+flatLights.dispose();
+assert.equal(lit.material.onBeforeCompile, hook);
+assert.deepEqual(lit.material.defines.NUSSELT_AREA_LIGHTS, undefined);
+new AreaLights(flat).add(flat);
+
 for (let i = 0; i < 4; ++i) scene.add(new RectAreaLight());
 assert.throws(() => lights.update(), /5 polygonal lights are too many: at most 4/);

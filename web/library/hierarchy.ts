@@ -100,6 +100,14 @@ function splitBins(items: number[], boxes: readonly Box[], whole: Box): [number[
     return parts;
 }
 
+/// Halves of triangles that no plane divides, null for others.
+function halves(items: number[], boxes: readonly Box[]): [number[], number[]] | null {
+    const center = (i: number, axis: number) => boxes[i].lower[axis] + boxes[i].upper[axis];
+    const isTogether = items.every(i => [0, 1, 2].every(axis => center(i, axis) === center(items[0], axis)));
+    if (items.length < leafSize || !isTogether) return null;
+    return [items.slice(0, items.length / 2), items.slice(items.length / 2)];
+}
+
 /// \param corners nine numbers for each triangle.
 export function makeHierarchy(corners: ArrayLike<number>): Hierarchy {
     const boxes: Box[] = [];
@@ -119,7 +127,7 @@ export function makeHierarchy(corners: ArrayLike<number>): Hierarchy {
         for (const i of items) extend(whole, boxes[i]);
         const begin = nodes.length;
         nodes.push(...whole.lower, 0, ...whole.upper, -1);
-        const parts = (items.length > mostSorted ? splitBins(items, boxes, whole) : null) ?? split(items, boxes, whole);
+        const parts = halves(items, boxes) ?? (items.length > mostSorted ? splitBins(items, boxes, whole) : null) ?? split(items, boxes, whole);
         if (parts === null) {
             nodes[begin + 7] = leafSize * order.length + items.length;
             order.push(...items);

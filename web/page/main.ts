@@ -66,12 +66,13 @@ class Page {
             shaderText: side => this.shaderText(side),
             link: () => this.link(),
         });
-        document.getElementById("page")?.append(this.stage.node, this.numbers.node, this.controls.node, help());
         const gl = this.stage.canvas.getContext("webgl2", { antialias: false, depth: false,
             powerPreference: "high-performance" });
         if (gl === null) throw new Error("This browser or device has no WebGL 2.");
         const lobes = Uint8Array.from(atob(data.lobes), c => c.charCodeAt(0));
         this.renderer = new Renderer(gl, new Map(Object.entries(data.sources)), lobes);
+        // Without a renderer, controls would do nothing but hide the message that says why.
+        document.getElementById("page")?.append(this.stage.node, this.numbers.node, this.controls.node, help());
         this.showLamps();
         this.attempt(() => this.update(null));
         window.addEventListener("hashchange", () => this.change(state => Object.assign(state, stateOf(location.hash))));

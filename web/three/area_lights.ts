@@ -5,7 +5,7 @@ import {
 } from "three";
 import shaderPart from "generated/area_lights.glsl";
 import lobeBytes from "../../data/ltc-frostbite-engine.bin";
-import { PolygonLight, Uniforms, lightVertices, mostLights, polygonUniforms, tubeUniforms } from "../library/light_uniforms";
+import { PolygonLight, TubularLight, Uniforms, lightVertices, mostLights, polygonUniforms, tubeUniforms } from "../library/light_uniforms";
 import { lobeTableSide, lobeTexels } from "../library/lobe_table";
 import { Occluders } from "./occluders";
 import { TubeLight } from "./tube_light";
@@ -34,6 +34,18 @@ function worldPolygon(light: RectAreaLight): PolygonLight {
     return { vertices: [corner(1, -1), corner(-1, -1), corner(-1, 1), corner(1, 1)], radiance };
 }
 
+const isFinite = (vectors: readonly (readonly number[])[]): boolean => vectors.flat().every(Number.isFinite);
+const differ = (a: readonly number[], b: readonly number[]): boolean => a.some((x, k) => x !== b[k]);
+
+/// Lights of no extent, such as those in groups of scale 0, and lights with numbers that are not finite do not shine.
+const panelShines = ({ vertices: [a, b, c], radiance }: PolygonLight): boolean =>
+    isFinite([a, b, c, radiance ?? []]) && differ(a, b) && differ(b, c);
+const tubeShines = ({ begin, end, radius, radiance }: TubularLight): boolean =>
+    isFinite([begin, end, radiance ?? []]) && radius > 0 && radius < Infinity && differ(begin, end);
+
+/// Which lights a material has: its program has room for those of one object.
+const owners = new WeakMap<MeshStandardMaterial, AreaLights>();
+
 /// Arrays in shaders, which three.js wants in full length: numbers per light.
 const arrays: Record<string, number> = {
     polygon_vertices: 3 * lightVertices, polygon_edges: 3 * lightVertices, polygon_normals: 3, polygon_radiances: 3,
@@ -56,19 +68,25 @@ function materialsOf(object: Object3D): MeshStandardMaterial[] {
     return materials.filter((material): material is MeshStandardMaterial => material instanceof MeshStandardMaterial);
 }
 
+/// What a material defines for its program, without what AreaLights adds.
+function withoutOurs(material: MeshStandardMaterial): Record<string, string | number> {
+    const { NUSSELT_AREA_LIGHTS: _, NUSSELT_TUBE_LIGHTS: __, ...others } = material.defines ?? {};
+    return others;
+}
+
 /// The area lights of a scene, for its standard and physical materials.
 export class AreaLights {
     /// Whether meshes with castShadow cast shadows on those with receiveShadow.
     shadows = true;
-    /// Two per pixel, light and frame: one for the diffuse part, one for the specular part.
-    samples = 1;
     /// Set this after changes that no version number tells: of bones, morph targets, or draw ranges.
     needsUpdate = false;
     /// Number of the next frame, which chooses its random numbers.
     frame = 0;
 
     private readonly occluders = new Occluders();
-    private readonly materials = new Set<MeshStandardMaterial>();
+    /// With what gives them back their own programs.
+    private readonly materials = new Map<MeshStandardMaterial, () => void>();
+    private sampleCount = 1;
     private readonly uniforms: Record<string, { value: unknown }>;
     private hasTubes = false;
     private isActive = true;
@@ -95,9 +113,19 @@ export class AreaLights {
     /// Adds to what the program of a material has.
     private addMaterial(material: MeshStandardMaterial): void {
         if (this.materials.has(material)) return;
-        this.materials.add(material);
+        if (owners.has(material))
+            throw new Error(`AreaLights: the material "${material.name}" has other area lights; dispose() of them first`);
+        owners.set(material, this);
         const compileBefore = material.onBeforeCompile;
+        const makeKeyBefore = material.customProgramCacheKey;
         const keyBefore = material.customProgramCacheKey();
+        this.materials.set(material, () => {
+            owners.delete(material);
+            material.onBeforeCompile = compileBefore;
+            material.customProgramCacheKey = makeKeyBefore;
+            material.defines = withoutOurs(material);
+            material.needsUpdate = true;
+        });
         material.onBeforeCompile = (shader, renderer) => {
             compileBefore.call(material, shader, renderer);
             Object.assign(shader.uniforms, this.uniforms);
@@ -112,17 +140,21 @@ export class AreaLights {
     }
 
     private setDefines(material: MeshStandardMaterial): void {
-        const { NUSSELT_AREA_LIGHTS: _, NUSSELT_TUBE_LIGHTS: __, ...others } = material.defines ?? {};
+        const others = withoutOurs(material);
         material.defines = this.isActive ? { ...others, NUSSELT_AREA_LIGHTS: "", NUSSELT_TUBE_LIGHTS: Number(this.hasTubes) } : others;
         material.needsUpdate = true;
     }
+
+    /// Two per pixel, light and frame: one for the diffuse part, one for the specular part. A whole number, at least 1.
+    get samples(): number { return this.sampleCount; }
+    set samples(value: number) { this.sampleCount = Math.max(1, Math.round(value) || 1); }
 
     /// Whether materials use these lights. If not, they are what they were, with three.js's own RectAreaLights.
     get active(): boolean { return this.isActive; }
     set active(value: boolean) {
         if (value === this.isActive) return;
         this.isActive = value;
-        for (const material of this.materials) this.setDefines(material);
+        for (const material of this.materials.keys()) this.setDefines(material);
     }
 
     /// Triangles that cast shadows.
@@ -152,24 +184,30 @@ export class AreaLights {
     private set(name: string, value: unknown): void { this.uniforms[name].value = value; }
 
     private updateLights(): boolean {
-        const panels: RectAreaLight[] = [];
-        const tubes: TubeLight[] = [];
+        const panels: PolygonLight[] = [];
+        const lines: TubularLight[] = [];
         this.scene.traverseVisible((object: Object3D) => {
-            if (object instanceof RectAreaLight) panels.push(object);
-            if (object instanceof TubeLight) tubes.push(object);
+            if (object instanceof RectAreaLight) {
+                const panel = worldPolygon(object);
+                if (panelShines(panel)) panels.push(panel);
+            }
+            if (object instanceof TubeLight) {
+                const line = object.toWorld();
+                if (!tubeShines(line)) return;
+                object.updateLook();
+                lines.push(line);
+            }
         });
-        for (const tube of tubes) tube.updateLook();
-        const lines = tubes.map(tube => tube.toWorld());
-        const uniforms: Uniforms = new Map([...polygonUniforms(panels.map(worldPolygon)),
+        const uniforms: Uniforms = new Map([...polygonUniforms(panels),
             ...tubeUniforms("line", lines, line => panels.length + lines.indexOf(line))]);
         for (const [name, values] of uniforms) {
             const { value } = this.uniforms[name];
             if (value instanceof Float32Array || value instanceof Int32Array) value.set(values);
             else this.set(name, values[0]);
         }
-        if (this.hasTubes !== tubes.length > 0) {
-            this.hasTubes = tubes.length > 0;
-            for (const material of this.materials) this.setDefines(material);
+        if (this.hasTubes !== lines.length > 0) {
+            this.hasTubes = lines.length > 0;
+            for (const material of this.materials.keys()) this.setDefines(material);
         }
         const state = JSON.stringify([[...uniforms], this.shadows, this.samples, this.isActive]);
         const hasChanged = state !== this.lightState;
@@ -177,8 +215,10 @@ export class AreaLights {
         return hasChanged;
     }
 
-    /// Frees textures.
+    /// Frees textures, and gives materials back their own programs.
     dispose(): void {
+        for (const restore of this.materials.values()) restore();
+        this.materials.clear();
         this.occluders.dispose();
         for (const name of ["lobe_shapes", "lobe_albedos"]) (this.uniforms[name].value as DataTexture).dispose();
     }
