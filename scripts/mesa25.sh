@@ -37,7 +37,12 @@ download() {
     touch "$folder/complete"
 }
 
+# Two tests at a time may need the driver first.
+mkdir -p "$(dirname "$folder")"
+exec 9>"$folder.lock"
+flock 9
 [ -e "$folder/complete" ] || download
+exec 9>&-
 # The driver comes with its own C library. Missing libraries come from the system.
 exec env VK_ICD_FILENAMES="$folder/root/usr/share/vulkan/icd.d/lvp_icd.json" \
     "$libraries/ld-linux-x86-64.so.2" --library-path "$libraries:/usr/lib/x86_64-linux-gnu" "$(command -v "$1")" "${@:2}"
