@@ -5,13 +5,15 @@ set(nusselt_techniques_file ${PROJECT_SOURCE_DIR}/include/nusselt/techniques.jso
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${nusselt_techniques_file})
 
 # Each field of each technique becomes a variable nusselt_technique_<name>_<field>, empty where the row lacks the field.
-# nusselt_techniques lists the names.
+# nusselt_techniques lists the names, nusselt_column_techniques those of the packages for other languages, whose lights are
+# columns of numbers.
 set(nusselt_technique_fields
     light measure horizon header density source renders published approximates clips_twice iterates cyclic)
 file(READ ${nusselt_techniques_file} registry)
 string(JSON count LENGTH "${registry}")
 math(EXPR last "${count} - 1")
 set(nusselt_techniques)
+set(nusselt_column_techniques)
 foreach(i RANGE ${last})
     string(JSON row GET "${registry}" ${i})
     string(JSON name GET "${row}" name)
@@ -43,6 +45,9 @@ foreach(i RANGE ${last})
             separate_arguments(suites)
             list(APPEND nusselt_technique_${name}_exempt ${suites})
         endforeach()
+    endif()
+    if(NOT nusselt_technique_${name}_is_related AND NOT wasm IN_LIST nusselt_technique_${name}_exempt)
+        list(APPEND nusselt_column_techniques ${name})
     endif()
 endforeach()
 

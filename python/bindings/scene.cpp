@@ -4,6 +4,7 @@
 #include "render/film.h"
 #include "scene/import/importers.h"
 #include "scene/model/bounds.h"
+#include "scene/model/brdf_name.h"
 #include "scene/model/fingerprint.h"
 #include "scene/model/lights/light_report.h"
 #include "scene/rig/camera_file.h"
@@ -53,18 +54,6 @@ void def_array(py::class_<EditableScene>& type, const char* name, std::vector<El
 }
 
 py::tuple to_tuple(const Float3& v) { return py::make_tuple(v.x, v.y, v.z); }
-
-const char* name_of(scene::BrdfModel model) {
-    switch (model) {
-    case scene::BrdfModel::frostbite:
-        return "frostbite";
-    case scene::BrdfModel::phong:
-        return "phong";
-    case scene::BrdfModel::lambert:
-        break;
-    }
-    return "lambert";
-}
 
 py::list materials(const EditableScene& self) {
     using namespace py::literals;

@@ -34,6 +34,16 @@ context.drawImage(source, x, y, width, height, 0, 0, width, height);
 return [...context.getImageData(0, 0, width, height).data];
 """
 
+WAIT = """
+const [condition, done] = arguments;
+const test = new Function(condition);
+(function poll() {
+    const value = test();
+    if (value) done(value);
+    else setTimeout(poll, 20);
+})();
+"""
+
 # Listeners run in the next frame, and what they do is visible in the one after it.
 SETTLE = "requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(arguments[arguments.length - 1])));"
 
@@ -103,6 +113,11 @@ class Browser:
                 else setTimeout(poll, 20);
             })();""", condition, list(arguments))
         assert done, f"never true: {condition}"
+
+    def wait(self, condition):
+        """The value of a condition once it is true. Waits as long as scripts may take: to compile shaders takes long on a busy
+        machine."""
+        return self.driver.execute_async_script(WAIT, condition)
 
     def settle(self):
         self.driver.execute_async_script(SETTLE)

@@ -14,24 +14,14 @@ import tempfile
 import time
 import unittest
 
+sys.dont_write_bytecode = True  # nothing new in the folder of the sources
+from processes import processes_with
+
 NUSSELT, LAB, SCENE = map(os.path.abspath, sys.argv[1:4])
 OPTIONS = ["--resolution", "160x90", "--spp", "4"]
 SKIPPED = 77  # for CTest
 # What shells, make, Slurm and the scripts of jobs themselves might read as something else.
 ODD_NAME = "nusselt 'a\"b $x\\n@tasks@ 5%a "
-
-
-def processes_with(text):
-    """Command lines of other processes with this text."""
-    found = []
-    for folder in pathlib.Path("/proc").glob("[0-9]*"):
-        try:
-            words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
-        except OSError:
-            continue
-        if text in words and int(folder.name) != os.getpid():
-            found.append(words)
-    return found
 
 
 class EnginesTest(unittest.TestCase):
@@ -104,7 +94,7 @@ class EnginesTest(unittest.TestCase):
         self.assertIn("stopped; run the same command again to continue", err)
         self.assertFalse((self.folder / "image.exr").exists())
         # The command ends after its tasks, which have written their checkpoints.
-        self.assertEqual(processes_with(str(self.folder)), [])
+        self.assertEqual(processes_with(str(self.folder)), {})
         done, stopped = names("done"), names("checkpoints") - names("done")
         self.assertTrue(done and stopped)
         # A task that cannot read its checkpoint says so: it would go on from there.

@@ -15,23 +15,11 @@ import unittest
 
 sys.dont_write_bytecode = True  # nothing new in the folder of the sources
 import cluster
+from processes import processes_with
 
 PROGRAM, SCENE = map(os.path.abspath, sys.argv[1:3])
 IS_FULL = os.environ.get("NUSSELT_TEST_EFFORT") == "full"
 SKIPPED = 77  # for CTest
-
-
-def processes_with(text):
-    """Ids of processes with this text in their command lines."""
-    found = []
-    for folder in pathlib.Path("/proc").glob("[0-9]*"):
-        try:
-            words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
-        except OSError:
-            continue
-        if text in words and int(folder.name) != os.getpid():
-            found.append(int(folder.name))
-    return found
 
 
 class SlurmTest(unittest.TestCase):

@@ -12,6 +12,7 @@ import unittest
 import pathlib
 
 from live_page import HEIGHT, LINK, ROOT, WIDTH, LivePageTest, page_html
+from pictures import smooth_pixels
 
 BLOCK = 10  # pixels in a row of a block
 SEEDS = 4   # pictures of each program, which differ by noise alone
@@ -28,22 +29,6 @@ def read_pfm(file):
     assert kind == b"PF"
     values = struct.unpack(("<" if float(scale) < 0 else ">") + f"{3 * width * height}f", data)
     return [value for y in reversed(range(height)) for value in values[3 * width * y:3 * width * (y + 1)]]
-
-
-def is_smooth(image):
-    """For each pixel whether it and those around have similar values: no edges, where devices may see another surface,
-    because they round positions on the screen."""
-    def similar(a, b):
-        return all(abs(image[a + k] - image[b + k]) <= 0.3 * max(image[a + k], image[b + k]) for k in range(3))
-
-    result = []
-    for y in range(HEIGHT):
-        for x in range(WIDTH):
-            at = 3 * (y * WIDTH + x)
-            around = [at + 3 * (dy * WIDTH + dx) for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1))
-                      if 0 <= x + dx < WIDTH and 0 <= y + dy < HEIGHT]
-            result.append(all(similar(at, other) for other in around))
-    return result
 
 
 def block_means(image, mask):
@@ -81,7 +66,7 @@ class Comparison:
     different noise count as fewer ones, after Satterthwaite. The logarithm is nearly normal (Fisher)."""
 
     def __init__(self, ours, theirs):
-        mask = is_smooth(mean_image(theirs))
+        mask = smooth_pixels(mean_image(theirs), WIDTH, HEIGHT)
         rows = list(zip(*(zip(*(block_means(image, mask) for image in images)) for images in (ours, theirs))))
         rows = [(ours, theirs) for ours, theirs in rows if None not in ours]
         scales = [mean(theirs) + 0.01 for _, theirs in rows]
@@ -199,7 +184,7 @@ class Techniques(LivePageTest):
         expected = self.image(8)
         self.choose("#left", "ltc_analytic")
         image = self.image(1)
-        mask = is_smooth(expected)
+        mask = smooth_pixels(expected, WIDTH, HEIGHT)
         blocks = [(a, b) for a, b in zip(block_means(image, mask), block_means(expected, mask)) if a is not None]
         self.assertLess(max(abs(a - b) / (b + 0.05) for a, b in blocks), 0.3)
         self.assertAlmostEqual(1, mean(image) / mean(expected), delta=0.05)

@@ -25,17 +25,6 @@ WIDTH, HEIGHT = 160, 90
 # One image by the technique that compiles fastest.
 LINK = f"width={WIDTH}&compare=0&reference=0"
 
-# Waits as long as scripts may take: to compile shaders takes long on a busy machine.
-WAIT = """
-const [condition, done] = arguments;
-const test = new Function(condition);
-(function poll() {
-    const value = test();
-    if (value) done(value);
-    else setTimeout(poll, 20);
-})();
-"""
-
 # The mean of an image after at least some frames, row by row from the top.
 IMAGE = """
 const [name, count, width, done] = arguments;
@@ -91,7 +80,7 @@ class LivePageTest(unittest.TestCase):
         self.assertEqual("ready", self.load(link, file), self.browser.find("#failure").text)
 
     def wait(self, condition):
-        return self.browser.driver.execute_async_script(WAIT, condition)
+        return self.browser.wait(condition)
 
     def image(self, count=1, name="left"):
         """The mean of all frames of an image, of which there are at least some, row by row from the top."""

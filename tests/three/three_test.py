@@ -17,6 +17,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "tests/browser"), str(ROOT / "web")]
 from browser import WEBGL, Browser, Keys, unavailable
+from pictures import smooth_pixels
 import build_three
 
 WIDTH, HEIGHT = 160, 90
@@ -29,16 +30,6 @@ MOST_ERROR = 0.01
 # Of the mean of the diffuse part from that of three.js, whose form factors are those of spheres: too large by up to a tenth at
 # grazing angles, by a few thousandths below a light.
 MOST_DEVIATION = 0.01
-
-WAIT = """
-const [condition, done] = arguments;
-const test = new Function(condition);
-(function poll() {
-    const value = test();
-    if (value) done(value);
-    else setTimeout(poll, 20);
-})();
-"""
 
 # The mean of frames that begin with the first random numbers, row by row from the top.
 IMAGE = """
@@ -98,21 +89,6 @@ def simple_materials(text):
 
 def mean(values):
     return sum(values) / len(values)
-
-
-def is_smooth(image):
-    """For each number of an image whether its pixel and those around have similar values: no edges."""
-    def similar(a, b):
-        return all(abs(image[a + k] - image[b + k]) <= 0.3 * max(image[a + k], image[b + k]) for k in range(3))
-
-    result = []
-    for y in range(HEIGHT):
-        for x in range(WIDTH):
-            at = 3 * (y * WIDTH + x)
-            around = [at + 3 * (dy * WIDTH + dx) for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1))
-                      if 0 <= x + dx < WIDTH and 0 <= y + dy < HEIGHT]
-            result += 3 * [all(similar(at, other) for other in around)]
-    return result
 
 
 def error(image, expected, mask=None):
@@ -182,7 +158,7 @@ class Example(unittest.TestCase):
         self.open(file)
 
     def wait(self, condition):
-        return self.browser.driver.execute_async_script(WAIT, condition)
+        return self.browser.wait(condition)
 
     def image(self, count=FRAMES):
         return self.browser.script(IMAGE, count)
@@ -192,7 +168,8 @@ class Example(unittest.TestCase):
         self.browser.use_screen(1000, 800, False)
         self.open(f"{self.page}#width={WIDTH}&left=projected_ltc&compare=0&reference=0&smooth=0&frames={FRAMES}")
         expected = self.browser.driver.execute_async_script(PAGE_IMAGE, FRAMES, WIDTH)
-        mask = is_smooth(expected)
+        # For each number of the picture.
+        mask = [smooth for smooth in smooth_pixels(expected, WIDTH, HEIGHT) for _ in range(3)]
         self.open_example(self.file)
         image = self.image()
         self.assertLess(error(image, expected, mask), MOST_ERROR)

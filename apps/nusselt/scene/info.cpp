@@ -6,6 +6,7 @@
 #include "base/stopwatch.h"
 #include "scene/import/ies/ies_file.h"
 #include "scene/model/bounds.h"
+#include "scene/model/brdf_name.h"
 #include "scene/model/lights/light_report.h"
 #include "scene/model/scene_size.h"
 #include "scene/model/vector_math.h"
@@ -25,18 +26,6 @@ using scene::Double3;
 using scene::Float3;
 
 std::string text(const Float3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
-
-const char* name_of(scene::BrdfModel model) {
-    switch (model) {
-    case scene::BrdfModel::frostbite:
-        return "frostbite";
-    case scene::BrdfModel::phong:
-        return "phong";
-    case scene::BrdfModel::lambert:
-        break;
-    }
-    return "lambert";
-}
 
 void print_geometry(const scene::Scene& scene) {
     fmt::print("triangles    {}\nvertices     {}\n", scene.triangles.size(), scene.positions.size());
