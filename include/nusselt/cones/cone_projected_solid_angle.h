@@ -19,6 +19,9 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]. Above the horizon it is wi.z / measure(). Where the
 /// horizon cuts the light it is that, or, where an interpolant of the measure of a sweep is not exact up to rounding, that times
 /// the ratio of interpolant and sweep: wi.z / pdf is unbiased in any case.
+/// Accuracy: where the horizon cuts the light, measure() is a quadrature with 16 nodes. Of lights near the point or much longer than
+/// wide, 99 % are off by at most 6e-3 and a few by much more (docs/techniques/elliptic_cone.md); pdf stays the density of the
+/// samples.
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
 /// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a
 /// sphere or an ellipsoid, all directions above the horizon lead to its surface.
