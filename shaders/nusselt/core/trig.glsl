@@ -125,10 +125,9 @@ SinCos sincos_quarter_turn(float angle) {
     return SinCos(nusselt_fma(angle * s, ps, angle), nusselt_fma(s * s, pc, nusselt_fma(s, -0.5, 1.0)));
 }
 
-/// x - sin(x) of the angle x = 2 atan(t) in [-pi / 2, pi / 2], with an error relative to itself.
-/// \param t in [-1, 1].
-float angle_minus_sine(float t) {
-    float s = t * t;
+/// (x - sin(x)) / t^3 of the angle x = 2 atan(t).
+/// \param s = t^2 in [0, 1].
+float angle_minus_sine_ratio(float s) {
     float p = nusselt_fma(-4.28121388e-2, s, 2.57261246e-1);
     p = nusselt_fma(p, s, -7.13133872e-1);
     p = nusselt_fma(p, s, 1.24713326);
@@ -137,8 +136,14 @@ float angle_minus_sine(float t) {
     p = nusselt_fma(p, s, -1.76994431);
     p = nusselt_fma(p, s, 1.71369636);
     p = nusselt_fma(p, s, -1.59998238);
-    p = nusselt_fma(p, s, 1.33333325);
-    return t * s * p;
+    return nusselt_fma(p, s, 1.33333325);
+}
+
+/// x - sin(x) of the angle x = 2 atan(t) in [-pi / 2, pi / 2], with an error relative to itself.
+/// \param t in [-1, 1].
+float angle_minus_sine(float t) {
+    float s = t * t;
+    return t * s * angle_minus_sine_ratio(s);
 }
 
 #endif

@@ -1,0 +1,209 @@
+#ifndef NUSSELT_CONES_RIM_MAP_GLSL
+#define NUSSELT_CONES_RIM_MAP_GLSL
+// Follows include/nusselt/cones/rim_map.h @ 0e7f4ef8ae79
+/// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
+/// smooth. Twin of include/nusselt/cones/rim_map.h.
+
+#include "../cones/cycloid.glsl"
+#include "../cones/elliptic_cone.glsl"
+
+/// The horizon is z = 0. Cones that it does not cut have is_cut false and any numbers.
+struct RimMap {
+    float a, b, c;
+    vec2 up;               ///< in the disk, away from the horizon
+    float height;          ///< of the axis above the horizon in the disk
+    float squared_tangent; ///< of a quarter of the angle of the arc above the horizon
+    float pole;            ///< across
+    float power;           ///< of the pole: 1 minus its squared distance from the axis
+    float len;             ///< of the pole, as a point of the cone
+    vec3 p, h;             ///< unit and horizontal: to the pole, and perpendicular to it
+    float shear, narrowing, slope, along_across, along_up; ///< from the disk to p, h and n
+    float squeeze, stretch;
+    vec2 mid; ///< the highest point after the squeeze
+    float mid_length;
+    float left, half_range; ///< angles of the map
+    bool is_cut;
+};
+
+/// A point of the rim.
+struct RimPoint {
+    vec2 disk;                    ///< across and up from the axis
+    float len, along, aside, up;  ///< of its direction, which is not of unit length, and in the basis p, h, n
+    float angle, sine, cosine;    ///< from the pole
+};
+
+/// A point of the rim as a function of z in [-1, 1].
+struct RimTurn {
+    float z;
+    RimPoint rim;
+    float clearance; ///< height above the horizon in the disk
+    float jacobian;  ///< angle in the disk per angle of the map
+};
+
+/// \param disk      a point of the unit circle, across and up from the axis.
+/// \param clearance its height above the horizon.
+RimPoint rim_map_point(const RimMap self, vec2 disk, float clearance) {
+    float s = self.a * (disk.y * self.up.x - disk.x * self.up.y);
+    float t = self.b * (disk.y * self.up.y + disk.x * self.up.x);
+    float offset = disk.x - self.pole;
+    RimPoint rim;
+    rim.disk = disk;
+    rim.len = sqrt(nusselt_fma(s, s, nusselt_fma(t, t, self.c * self.c)));
+    rim.along = nusselt_fma(self.along_across, offset, nusselt_fma(self.along_up, clearance, self.len));
+    rim.aside = nusselt_fma(self.narrowing, offset, self.shear * clearance);
+    rim.up = self.slope * clearance;
+    float inverse = 1.0 / rim.len;
+    rim.sine = hypotenuse(rim.aside, rim.up) * inverse;
+    rim.cosine = rim.along * inverse;
+    rim.angle = atan2_positive(rim.sine, rim.cosine);
+    return rim;
+}
+
+/// The angle of the map at a point of the rim, after the squeeze and the stretch.
+/// \param point in the disk, in the basis of the axes.
+/// \param across sine of its angle from the highest point.
+float rim_map_angle(const RimMap self, vec2 point, float across) {
+    vec2 squeezed = vec2(point.x, self.squeeze * point.y);
+    float len = hypotenuse(squeezed.x, squeezed.y);
+    float x = dot(squeezed, self.mid);
+    float y = self.squeeze * abs(across) / self.mid_length;
+    // The tangent of the half of the angle, from the sum that does not cancel.
+    float opposite = x < 0.0 ? len - x : y;
+    float adjacent = x < 0.0 ? y : len + x;
+    return copysign(2.0 * atan2_positive(self.stretch * opposite, adjacent), across);
+}
+
+/// The point of the disk, in the basis of the axes, at a place across and up.
+vec2 rim_map_from_up(const RimMap self, vec2 disk) {
+    return vec2(disk.y * self.up.x - disk.x * self.up.y, disk.y * self.up.y + disk.x * self.up.x);
+}
+
+RimMap make_rim_map(const EllipticCone cone) {
+    // A half-space is a cone with a large angle; so nothing is infinite.
+    RimMap self;
+    self.a = cone.a;
+    self.b = cone.b;
+    self.c = nusselt_max(cone.c, 8.0 * kNusseltEpsilon);
+
+    // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
+    float na = cone.e1.z * self.a;
+    float nb = cone.e2.z * self.b;
+    float nc = cone.e3.z * self.c;
+    float k = hypotenuse(na, nb);
+    self.is_cut = abs(nc) < k && nusselt_min(self.a, self.b) > kNusseltTiny;
+    float inverse_k = 1.0 / (self.is_cut ? k : 1.0);
+    self.up = self.is_cut ? vec2(na, nb) * inverse_k : vec2(1.0, 0.0);
+    float lower = (k - nc) * inverse_k; // 1 - h0
+    float upper = (k + nc) * inverse_k; // 1 + h0
+    self.height = nc * inverse_k;
+    float half_arc = sqrt(nusselt_max(lower * upper, 0.0));
+    self.squared_tangent = upper / nusselt_max(lower, kNusseltEpsilon / 16.0);
+
+    // Find the pole, where the bisector of both ends of the horizon's arc meets it.
+    vec3 across = vec3(-self.a * self.up.y, self.b * self.up.x, 0.0);
+    vec3 upwards = vec3(self.a * self.up.x, self.b * self.up.y, 0.0);
+    vec3 middle = vec3(-self.height * upwards.x, -self.height * upwards.y, self.c);
+    float to_ends = nusselt_length(middle + half_arc * across) + nusselt_length(middle - half_arc * across);
+    float tilt = self.height * ((self.a - self.b) * (self.a + self.b)) * (self.up.x * self.up.y);
+    float relative = half_arc / (to_ends > 0.0 ? to_ends : 1.0);
+    self.pole = -4.0 * relative * relative * tilt;
+    self.power = nusselt_max((half_arc - self.pole) * (half_arc + self.pole), 0.0);
+    vec3 q = middle + self.pole * across;
+    self.len = nusselt_length(q);
+    float inverse_distance = over_positive(1.0, self.len);
+    vec3 p = inverse_distance * q;
+
+    // Express directions of the disk in the basis of the horizontal h and the normal.
+    vec3 in_world = p.x * cone.e1 + p.y * cone.e2 + p.z * cone.e3;
+    self.p = nusselt_normalize(vec3(in_world.xy, 0.0));
+    vec3 aside = vec3(-self.p.y, self.p.x, 0.0);
+    vec3 h = vec3(dot(aside, cone.e1), dot(aside, cone.e2), dot(aside, cone.e3));
+    float side = dot(h, across) < 0.0 ? -1.0 : 1.0;
+    self.h = side * aside;
+    self.shear = side * dot(h, upwards);
+    self.narrowing = (self.c * inverse_distance) * (self.a * self.b * inverse_k);
+    self.slope = self.is_cut ? k : 1.0;
+    self.along_across = dot(p, across);
+    self.along_up = dot(p, upwards);
+
+    // Choose the map of the rim.
+    float ratio = hypotenuse(self.b, self.c) / hypotenuse(self.a, self.c);
+    self.squeeze = sqrt(ratio * sqrt(ratio));
+    vec2 squeezed = vec2(self.up.x, self.squeeze * self.up.y);
+    self.mid_length = hypotenuse(squeezed.x, squeezed.y);
+    self.mid = (1.0 / self.mid_length) * squeezed;
+    RimPoint top = rim_map_point(self, vec2(0.0, 1.0), upper);
+    float cosine = nusselt_max(top.cosine, -1.0);
+    self.stretch = 1.0 / sqrt(nusselt_max(0.5 * (1.0 + cosine), 64.0 * kNusseltEpsilon));
+    self.left = rim_map_angle(self, rim_map_from_up(self, vec2(-half_arc, -self.height)), -half_arc);
+    float right = rim_map_angle(self, rim_map_from_up(self, vec2(half_arc, -self.height)), half_arc);
+    self.half_range = 0.5 * (right - self.left);
+    return self;
+}
+
+/// The measure of the sweep over the integral of rim_map_density() over z.
+float rim_map_scale(const RimMap self) { return self.narrowing * self.slope * self.slope * self.half_range; }
+
+/// The point of the disk of the cone on the way from the pole to a point of the rim.
+vec2 rim_map_towards(const RimMap self, const RimPoint rim, float share) {
+    vec2 from = vec2(self.pole, -self.height);
+    return rim_map_from_up(self, from + share * (rim.disk - from));
+}
+
+/// \param z in [-1, 1]
+RimTurn rim_map_turned(const RimMap self, float z) {
+    // Undo the stretch of half-angles.
+    float half_zeta = 0.5 * nusselt_fma(self.half_range, z + 1.0, self.left);
+    SinCos turn = sincos_half_turn(abs(half_zeta));
+    float half_sine = copysign(abs(turn.sine), half_zeta);
+    float x = self.stretch * nusselt_max(turn.cosine, 0.0);
+    float inverse = 1.0 / nusselt_fma(x, x, half_sine * half_sine);
+    float cosine = (x - half_sine) * (x + half_sine) * inverse;
+    float sine = 2.0 * x * half_sine * inverse;
+
+    // Undo the squeeze. The sine of the angle from the highest point is accurate relative to itself.
+    vec2 angle = vec2(self.squeeze, 1.0) * (cosine * self.mid + sine * vec2(-self.mid.y, self.mid.x));
+    float inverse_length = 1.0 / sqrt(dot(angle, angle));
+    float across = inverse_length * self.mid_length * sine;
+    float up = inverse_length * (angle.x * self.up.x + angle.y * self.up.y);
+
+    // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
+    float t = up < 0.0 ? (1.0 - up) / nusselt_max(abs(across), kNusseltEpsilon) : across / (1.0 + up);
+    float s = nusselt_min(t * t, self.squared_tangent);
+
+    RimTurn result;
+    result.z = z;
+    result.clearance = 2.0 * (self.squared_tangent - s) / ((1.0 + s) * (1.0 + self.squared_tangent));
+    result.rim = rim_map_point(self, vec2(across, up), result.clearance);
+    result.jacobian = (self.stretch * inverse) * (self.squeeze * inverse_length * inverse_length);
+    return result;
+}
+
+/// The measure of the sweep per z, up to a constant.
+float rim_map_density(const RimMap self, const RimTurn turn) {
+    RimPoint rim = turn.rim;
+    float weight = 0.25 * cycloid_over_cubed_sine(rim.angle, rim.sine, rim.cosine);
+    float volume = nusselt_max(1.0 + self.height * rim.disk.y - self.pole * rim.disk.x, 0.0);
+    float inverse = 1.0 / rim.len;
+    return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
+}
+
+/// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
+float rim_map_place_of(const RimMap self, vec3 wi) {
+    // The ray in the disk, scaled to order one.
+    float upwards = nusselt_max(wi.z, 0.0);
+    vec2 ray = vec2(dot(wi, self.h) - (self.shear / self.slope) * upwards, (self.narrowing / self.slope) * upwards);
+    ray = reciprocal_power_of_two(nusselt_max(abs(ray.x), ray.y)) * ray;
+    if (!(dot(ray, ray) > 0.0)) ray = vec2(0.0, 1.0);
+    float squared = dot(ray, ray);
+
+    // The larger root of the distance to the rim, in the form without cancellation.
+    float along = nusselt_fma(self.pole, ray.x, -self.height * ray.y);
+    float root = sqrt(nusselt_max(nusselt_fma(along, along, squared * self.power), 0.0));
+    float reach = along <= 0.0 ? (root - along) / squared : self.power / (along + root);
+    vec2 point = vec2(nusselt_fma(reach, ray.x, self.pole), nusselt_fma(reach, ray.y, -self.height));
+    float zeta = rim_map_angle(self, rim_map_from_up(self, point), point.x);
+    return nusselt_min(nusselt_max(over_positive(zeta - self.left, self.half_range) - 1.0, -1.0), 1.0);
+}
+
+#endif

@@ -1,0 +1,119 @@
+#ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
+#define NUSSELT_CONES_WHOLE_CONE_GLSL
+// Follows include/nusselt/cones/whole_cone.h @ e6819cded43f
+/// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
+/// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
+
+#include "../cones/cone_sweep.glsl"
+
+/// Whether the horizon z = 0 does not cut a cone that is above it.
+bool is_above_horizon(const EllipticCone cone) {
+    return cone.e3.z * cone.c >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+}
+
+struct WholeCone {
+    vec3 e1, e2, e3;
+    float alpha, beta;    ///< of the ellipse that is the projection along the axis
+    vec2 disk_per_radius; ///< the disk of the cone per disk of the ellipse, both divided by the cosine
+    vec2 odd;
+    float measure; ///< projected solid angle [sr]
+    float inverse_measure;
+};
+
+/// \param cone above the horizon; others give any density.
+WholeCone make_whole_cone(const EllipticCone cone) {
+    WholeCone self;
+    self.e1 = cone.e1;
+    self.e2 = cone.e2;
+    self.e3 = cone.e3;
+    float a1 = hypotenuse(cone.a, cone.c);
+    float b1 = hypotenuse(cone.b, cone.c);
+    self.alpha = over_positive(cone.a, a1);
+    self.beta = over_positive(cone.b, b1);
+    self.disk_per_radius = vec2(over_positive(cone.c, a1), over_positive(cone.c, b1));
+    bool rises = cone.e3.z > 0.0;
+    float inverse = 1.0 / (rises ? cone.e3.z : 1.0);
+    self.odd = vec2(cone.e1.z * self.alpha * inverse, cone.e2.z * self.beta * inverse);
+    float measure = kNusseltPi * (self.alpha * self.beta) * cone.e3.z;
+    float inverse_measure = 1.0 / (measure > 0.0 ? measure : 1.0);
+    bool lit = rises && cone.is_visible && measure > 0.0 && is_finite(inverse_measure);
+    self.measure = lit ? measure : 0.0;
+    self.inverse_measure = lit ? inverse_measure : 0.0;
+    return self;
+}
+
+struct WholeConeRay {
+    float extent; ///< m, the largest sine of the angle from the axis
+    float eta;    ///< weight of the odd term
+    float ratio;  ///< Phi(m)
+};
+
+float complement_of(float y) { return sqrt(nusselt_max((1.0 - y) * (1.0 + y), 0.0)); }
+
+/// (asin(y) - y sqrt(1 - y^2)) / y^3 for y in [0, 1].
+float segment_ratio(float y, float complement) {
+    // This is the cycloid for twice the angle asin(y), over the sine.
+    return 0.5 * cycloid_over_cubed_sine(atan2_positive(y, complement), y, complement);
+}
+
+WholeConeRay whole_cone_ray(const WholeCone self, vec2 direction) {
+    float extent = nusselt_min(hypotenuse(self.alpha * direction.x, self.beta * direction.y), 1.0);
+    return WholeConeRay(extent, nusselt_fma(self.odd.x, direction.x, self.odd.y * direction.y),
+                        segment_ratio(extent, complement_of(extent)));
+}
+
+float whole_cone_value(const WholeConeRay ray, float zeta, float r) {
+    float y = nusselt_min(ray.extent * r, 1.0);
+    return r * r * nusselt_fma(zeta * r, segment_ratio(y, complement_of(y)), 1.0);
+}
+
+/// The radius in [0, 1] for which whole_cone_value() is the goal.
+float whole_cone_solve(const WholeConeRay ray, float zeta, float goal) {
+    // The start is exact at both ends. Steps go to the root of Taylor's polynomial of degree two, in Blinn's form.
+    float z = zeta * ray.ratio;
+    float guess = nusselt_min(sqrt(goal / nusselt_max(1.0 + z, kNusseltEpsilon)), 1.0);
+    float r = nusselt_min(sqrt(goal / nusselt_max(nusselt_fma(z, guess, 1.0), kNusseltEpsilon)), 1.0);
+    for (int i = 0; i < 2; ++i) {
+        float y = nusselt_min(ray.extent * r, 1.0);
+        float w = nusselt_max(complement_of(y), 9.31322574615478515625e-10);
+        float inverse = 1.0 / w;
+        float f = whole_cone_value(ray, zeta, r) - goal;
+        float slope = 2.0 * r * nusselt_max(nusselt_fma(zeta * r, inverse, 1.0), 0.0);
+        float curve = nusselt_fma(2.0 * zeta * r, nusselt_fma(w, w, 1.0) * (inverse * inverse * inverse), 2.0);
+        float root = sqrt(nusselt_max(nusselt_fma(slope, slope, -2.0 * f * curve), 0.0));
+        r = nusselt_min(nusselt_max(r - 2.0 * over_positive(f, slope + root), 0.0), 1.0);
+    }
+    return r;
+}
+
+/// \param u in [0, 1)^2; u.x turns around the axis, u.y leads from one side of the cone to the other. Continuous in
+///          both.
+ConeSample whole_cone_sample(const WholeCone self, vec2 u) {
+    SinCos turn = sincos_half_turn(kNusseltPi * u.x);
+    WholeConeRay ray = whole_cone_ray(self, vec2(turn.cosine, turn.sine));
+    float kappa = nusselt_fma(2.0, u.y, -1.0) + ray.eta * ray.ratio;
+    float zeta = kappa < 0.0 ? -ray.eta : ray.eta;
+    float goal = nusselt_min(abs(kappa), nusselt_fma(zeta, ray.ratio, 1.0));
+    float radius = whole_cone_solve(ray, zeta, goal);
+    float r = kappa < 0.0 ? -radius : radius;
+    float z = complement_of(ray.extent * radius);
+    vec3 wi = (r * self.alpha * turn.cosine) * self.e1 + (r * self.beta * turn.sine) * self.e2 + z * self.e3;
+    float inverse = over_positive(r, z);
+    return ConeSample(wi, self.disk_per_radius * vec2(turn.cosine * inverse, turn.sine * inverse));
+}
+
+/// The random numbers for which the sample is a unit direction in the cone.
+vec2 whole_cone_invert(const WholeCone self, vec3 wi) {
+    float x = over_positive(abs(dot(wi, self.e1)), self.alpha);
+    float y = over_positive(abs(dot(wi, self.e2)), self.beta);
+    float len = hypotenuse(x, y);
+    float side = dot(wi, self.e2) < 0.0 ? -1.0 : 1.0;
+    float cosine = copysign(x, side * dot(wi, self.e1));
+    float inverse = over_positive(1.0, len);
+    WholeConeRay ray = whole_cone_ray(self, inverse > 0.0 ? vec2(cosine, y) * inverse : vec2(1.0, 0.0));
+    float f = whole_cone_value(ray, side * ray.eta, nusselt_min(len, 1.0));
+    return vec2(below_one((1.0 / kNusseltPi) * atan2_positive(y, cosine)),
+                below_one(0.5 * (1.0 + (side * f - ray.eta * ray.ratio))));
+}
+
+#endif
