@@ -16,7 +16,8 @@ import sys
 
 LIGHTS = {"polygon", "rectangle", "polygon_on_lobe", "polygon_on_brdf", "textured_polygon", "textured_polygon_on_lobe",
           "textured_line", "textured_line_on_lobe", "textured_tube", "textured_tube_on_lobe",
-          "windowed_polygon", "windowed_polygon_on_lobe", "environment", "environment_on_lobe", "line", "line_on_lobe", "cylinder", "cylinder_on_lobe"}
+          "windowed_polygon", "windowed_polygon_on_lobe", "environment", "environment_on_lobe", "line", "line_on_lobe", "cylinder", "cylinder_on_lobe",
+          "sphere", "sphere_on_lobe", "disk", "disk_on_lobe", "ellipse", "ellipse_on_lobe", "ellipsoid", "ellipsoid_on_lobe"}
 MEASURES = {"area", "solid_angle", "projected_solid_angle", "lobe", "brdf", "radiance"}
 REQUIRED = {"name": str, "light": str, "measure": str, "horizon": str, "header": str, "glsl": dict, "density": str,
             "source": str, "page": str}

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
@@ -91,6 +92,50 @@ struct Cylinder {
     }
 };
 
+/// Columns x, y, z of the centre and the radius [m].
+struct Sphere {
+    static constexpr int kRandom = 2;
+    static constexpr bool takes(int columns) noexcept { return columns == 4; }
+
+    template <class Real>
+    static nusselt::Sphere<Real> read(const Reader<Real>& reader, int) noexcept {
+        return {reader.vector(0), reader.number(3)};
+    }
+};
+
+/// Columns x, y, z of the centre [m], of the normal (unit), and the radius [m].
+struct Disk {
+    static constexpr int kRandom = 2;
+    static constexpr bool takes(int columns) noexcept { return columns == 7; }
+
+    template <class Real>
+    static nusselt::Disk<Real> read(const Reader<Real>& reader, int) noexcept {
+        return {reader.vector(0), reader.vector(3), reader.number(6)};
+    }
+};
+
+/// Columns x, y, z of the centre and of two semi-diameters [m].
+struct Ellipse {
+    static constexpr int kRandom = 2;
+    static constexpr bool takes(int columns) noexcept { return columns == 9; }
+
+    template <class Real>
+    static nusselt::Ellipse<Real> read(const Reader<Real>& reader, int) noexcept {
+        return {reader.vector(0), reader.vector(3), reader.vector(6)};
+    }
+};
+
+/// Columns x, y, z of the centre and of three semi-diameters [m].
+struct Ellipsoid {
+    static constexpr int kRandom = 2;
+    static constexpr bool takes(int columns) noexcept { return columns == 12; }
+
+    template <class Real>
+    static nusselt::Ellipsoid<Real> read(const Reader<Real>& reader, int) noexcept {
+        return {reader.vector(0), {reader.vector(3), reader.vector(6), reader.vector(9)}};
+    }
+};
+
 /// The columns of a light, followed by m00, m02, m11, m20, m22 of the matrix of a lobe (LtcCoefficients).
 template <class Light>
 struct OnLobe {
@@ -111,6 +156,10 @@ template <int N>
 using PolygonOnLobe = OnLobe<Polygon<N>>;
 using LineOnLobe = OnLobe<Line>;
 using CylinderOnLobe = OnLobe<Cylinder>;
+using SphereOnLobe = OnLobe<Sphere>;
+using DiskOnLobe = OnLobe<Disk>;
+using EllipseOnLobe = OnLobe<Ellipse>;
+using EllipsoidOnLobe = OnLobe<Ellipsoid>;
 /// @}
 
 } // namespace columns

@@ -34,6 +34,10 @@
 #include <nusselt/random/light_random.h>
 
 // All techniques, by scripts/check-techniques.py.
+#include <nusselt/cones/cone_ltc.h>
+#include <nusselt/cones/cone_projected_solid_angle.h>
+#include <nusselt/cones/cone_solid_angle.h>
+#include <nusselt/cones/ellipse_area.h>
 #include <nusselt/emission/environment_sampling.h>
 #include <nusselt/emission/textured_polygon.h>
 #include <nusselt/emission/windowed_polygon.h>

@@ -217,7 +217,9 @@ AccuracyTable measure_accuracy(const AccuracySettings& settings) {
     add_others(TestedBy<AccuracySuite, LineKinds, RectangleKinds>(), tasks);
     add_polygons(TestedBy<AccuracySuite, PolygonOnLobeKinds<4>>(),
                  TestedBy<AccuracySuite, PolygonOnLobeKinds<8>>(), tasks);
-    add_others(TestedBy<AccuracySuite, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds>(), tasks);
+    add_others(TestedBy<AccuracySuite, LineOnLobeKinds, CylinderKinds, CylinderOnLobeKinds, RoundKinds,
+                        RoundOnLobeKinds>(),
+               tasks);
 
     std::vector<std::vector<proof::AccuracyRow>> results(tasks.size());
     tbb::parallel_for(std::size_t{0}, tasks.size(),

@@ -25,6 +25,7 @@ inline LtcCoefficients<float> random_lobe(proof::Engine& engine) {
 inline const auto& classes_of(const proof::PolygonClass*) { return proof::polygon_classes(); }
 inline const auto& classes_of(const proof::LineClass*) { return proof::line_classes(); }
 inline const auto& classes_of(const proof::CylinderClass*) { return proof::cylinder_classes(); }
+inline const auto& classes_of(const proof::RoundClass*) { return proof::round_classes(); }
 template <class Base>
 const auto& classes_of(const proof::OnLobes<Base>*) {
     static const auto classes = proof::on_lobes(classes_of(static_cast<const Base*>(nullptr)), random_lobe);
@@ -37,6 +38,7 @@ inline bool fits_bound(const proof::PolygonClass& lights, int bound) {
 }
 inline bool fits_bound(const proof::LineClass&, int) { return true; }
 inline bool fits_bound(const proof::CylinderClass&, int) { return true; }
+inline bool fits_bound(const proof::RoundClass&, int) { return true; }
 template <class Base>
 bool fits_bound(const proof::OnLobes<Base>& lights, int bound) {
     return fits_bound(*lights.base, bound);

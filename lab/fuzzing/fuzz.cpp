@@ -46,6 +46,12 @@ struct Configuration {
             lights.ends(ends);
             std::copy(ends, ends + 2, vertex);
             if (light == FuzzLight::cylinder) radius = lights.radius(ends);
+            break;
+        case FuzzLight::ellipsoid:
+            Vec3<T> semi_diameters[4];
+            lights.semi_diameters(semi_diameters);
+            count = 4;
+            std::copy(semi_diameters, semi_diameters + count, vertex);
         }
         u[0] = lights.random_number();
         if (light != FuzzLight::line) u[1] = lights.random_number();
@@ -186,8 +192,8 @@ std::vector<FuzzRow> fuzz(const FuzzTable<T>& table, const FuzzSettings& setting
         for (std::uint64_t b = next_block++; b < block_count; b = next_block++) {
             const std::uint64_t first = b * kColumns;
             const auto columns = static_cast<int>(std::min(kColumns, settings.count - first));
-            for (const FuzzLight light :
-                 {FuzzLight::quadrilateral, FuzzLight::octagon, FuzzLight::line, FuzzLight::cylinder}) {
+            for (const FuzzLight light : {FuzzLight::quadrilateral, FuzzLight::octagon, FuzzLight::line,
+                                          FuzzLight::cylinder, FuzzLight::ellipsoid}) {
                 const auto takes = [&](const Tally<T>& t) { return t.technique->light == light; };
                 if (std::none_of(tallies.begin(), tallies.end(), takes)) continue;
                 make_block(light, settings.seed, settings.first + first, columns, *block);
@@ -252,9 +258,11 @@ std::string name_of(FuzzLight light) {
     case FuzzLight::line:
         return "lines";
     case FuzzLight::cylinder:
+        return "cylinders";
+    case FuzzLight::ellipsoid:
         break;
     }
-    return "cylinders";
+    return "ellipsoids";
 }
 
 } // namespace nusselt::lab

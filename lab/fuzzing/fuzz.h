@@ -56,7 +56,7 @@ std::vector<FuzzRow> fuzz_library(const std::string& scalar, const std::optional
 /// Class names of the techniques of the library.
 std::vector<std::string> fuzz_technique_names();
 
-/// "quadrilaterals", "octagons", "lines" or "cylinders".
+/// "quadrilaterals", "octagons", "lines", "cylinders" or "ellipsoids".
 std::string name_of(FuzzLight light);
 
 } // namespace nusselt::lab

@@ -48,6 +48,10 @@ auto geometry_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
         Vec3<Real> vertices[Kind::kVertices];
         for (int j = 0; j < Kind::kVertices; ++j) vertices[j] = vertex<Real>(block, i, j);
         return make_polygon<Kind::kVertices>(vertices, Kind::kVertices);
+    } else if constexpr (hostile::kIsRound<Kind>) {
+        return Ellipsoid<Real>{
+            vertex<Real>(block, i, 0),
+            {vertex<Real>(block, i, 1), vertex<Real>(block, i, 2), vertex<Real>(block, i, 3)}};
     } else {
         const LineSegment<Real> line = make_line(vertex<Real>(block, i, 0), vertex<Real>(block, i, 1));
         if constexpr (hostile::kIsCylinder<Kind>) {
@@ -62,7 +66,7 @@ template <class Kind, class Real>
 typename Kind::template Light<Real> light_of(const FuzzBlock<scalar_t<Real>>& block, int i) noexcept {
     if constexpr (hostile::kHasLobe<Kind>) {
         const auto entry = [&](int k) { return column<Real>(block.lobe[k], i); };
-        return {geometry_of<Kind, Real>(block, i),
+        return {Kind::from(geometry_of<Kind, Real>(block, i)),
                 {entry(0), entry(1), entry(2), entry(3), entry(4), Real(1)}};
     } else {
         return Kind::from(geometry_of<Kind, Real>(block, i));
@@ -121,6 +125,7 @@ constexpr FuzzTechnique<scalar_t<Real>> technique() {
     if constexpr (hostile::kIsPolygon<Kind>)
         light = Kind::kVertices == 4 ? FuzzLight::quadrilateral : FuzzLight::octagon; // 7 or 8 vertices
     if constexpr (hostile::kIsCylinder<Kind>) light = FuzzLight::cylinder;
+    if constexpr (hostile::kIsRound<Kind>) light = FuzzLight::ellipsoid;
     return {Kind::kName, light, check<Kind, Real>, hostile::kHasLobe<Kind>};
 }
 

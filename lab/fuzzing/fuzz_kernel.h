@@ -7,14 +7,14 @@
 
 namespace nusselt::lab {
 
-enum class FuzzLight { quadrilateral, octagon, line, cylinder };
+enum class FuzzLight { quadrilateral, octagon, line, cylinder, ellipsoid };
 
 /// Hostile configurations, one column each. Polygons with fewer vertices repeat the last one.
 template <class T>
 struct FuzzBlock {
     static constexpr int kSize = 512; ///< a multiple of all numbers of lanes
-    T coordinates[8][3][kSize];
-    T radius[kSize]; ///< of cylinders; the first two vertices are the ends of the axis
+    T coordinates[8][3][kSize];       ///< of vertices; of the centre and the semi-diameters of ellipsoids
+    T radius[kSize];                  ///< of cylinders; the first two vertices are the ends of the axis
     T u[2][kSize];
     T lobe[5][kSize]; ///< m00, m02, m11, m20, m22 of LtcCoefficients, for techniques that take a lobe
 };

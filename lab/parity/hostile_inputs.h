@@ -31,6 +31,18 @@ void draw(hostile::HostileLights<float>& source, ConvexPolygon<float, N>& light,
     u.y = source.random_number();
 }
 
+template <template <class> class Shape>
+void draw(hostile::HostileLights<float>& source, Shape<float>& light, Vec2<float>& u) {
+    light = hostile::RoundKind<Shape>::from(source.ellipsoid());
+    u.x = source.random_number();
+    u.y = source.random_number();
+}
+template <template <class> class Shape>
+void draw(hostile::HostileLights<float>& source, hostile::RoundOnLobe<float, Shape>& light, Vec2<float>& u) {
+    draw(source, static_cast<Shape<float>&>(light), u);
+    light.lobe = source.lobe();
+}
+
 template <int N>
 void draw(hostile::HostileLights<float>& source, hostile::PolygonOnLobe<float, N>& light, Vec2<float>& u) {
     draw(source, static_cast<ConvexPolygon<float, N>&>(light), u);

@@ -50,7 +50,7 @@ set(bounds_of_textured_polygon 8)
 set(bounds_of_textured_polygon_on_lobe 8)
 set(bounds_of_windowed_polygon 8)
 set(bounds_of_windowed_polygon_on_lobe 8)
-foreach(light line line_on_lobe cylinder cylinder_on_lobe environment environment_on_lobe
+foreach(light line line_on_lobe cylinder cylinder_on_lobe ellipse ellipse_on_lobe ellipsoid ellipsoid_on_lobe environment environment_on_lobe
     textured_line textured_line_on_lobe textured_tube textured_tube_on_lobe)
     set(bounds_of_${light} 2)
 endforeach()

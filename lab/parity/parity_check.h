@@ -130,6 +130,9 @@ inline Vec3<proof::Exact> hit_point(const Cylinder<proof::Exact>& light, const V
     return intersect(light, wi).distance * wi;
 }
 
+using hostile::hit_point;
+using hostile::size_of;
+
 template <int N>
 proof::Exact size_of(const ConvexPolygon<proof::Exact, N>& light) {
     proof::Exact size = 0;

@@ -76,6 +76,19 @@ struct Source<hostile::CylinderKind> {
         return {Source<hostile::LineKind>::light<Real>(corners, lights, i), column<Real>(lights.radius, i)};
     }
 };
+template <template <class> class Shape>
+struct Source<hostile::RoundKind<Shape>> {
+    static constexpr LightKind kKind = LightKind::round;
+    static constexpr int kVertexBound = 4;
+    template <class Real>
+    static Shape<Real> light(const Corners& corners, const TimedLights&, int i) {
+        const Vec3<Real> a = vector<Real>(corners[0], i), b = vector<Real>(corners[1], i),
+                         c = vector<Real>(corners[2], i), d = vector<Real>(corners[3], i);
+        const Vec3<Real> u = Real(0.5f) * (a - c), v = Real(0.5f) * (b - d);
+        const Vec3<Real> across = (Real(1) / length(u)) * cross(u, v);
+        return hostile::RoundKind<Shape>::from(Ellipsoid<Real>{Real(0.5f) * (a + c), {u, v, across}});
+    }
+};
 /// The same with a lobe.
 template <class Base, class Bare, LightKind Kind>
 struct SourceOnLobe : Source<Bare> {
@@ -97,6 +110,10 @@ struct Source<hostile::LineOnLobeKind>
 template <>
 struct Source<hostile::CylinderOnLobeKind>
     : SourceOnLobe<hostile::CylinderOnLobeKind, hostile::CylinderKind, LightKind::cylinder_on_lobe> {};
+
+template <template <class> class Shape>
+struct Source<hostile::RoundOnLobeKind<Shape>>
+    : SourceOnLobe<hostile::RoundOnLobeKind<Shape>, hostile::RoundKind<Shape>, LightKind::round_on_lobe> {};
 
 /// A light in world space, and where it is seen from.
 template <class Light, class Real>
@@ -185,6 +202,7 @@ struct Baseline {
     explicit Baseline(const ConvexPolygon<Real, N>& light) : v(light.vertex[0] + light.normal) {}
     explicit Baseline(const LineSegment<Real>& light) : v(light.p0 + light.s) {}
     explicit Baseline(const Cylinder<Real>& light) : v(light.axis.p0 + light.axis.s) {}
+    explicit Baseline(const Sphere<Real>& light) : v(light.center) {}
     Vec3<Real> direction(const Real&) const { return v; }
     Vec3<Real> direction(const Vec2<Real>&) const { return v; }
     LightSample<Real> sample(const Real& u) const { return {v, u, v}; }
@@ -255,6 +273,10 @@ hostile::LineKind base_of(const hostile::LineKind*);
 hostile::LineOnLobeKind base_of(const hostile::LineOnLobeKind*);
 hostile::CylinderKind base_of(const hostile::CylinderKind*);
 hostile::CylinderOnLobeKind base_of(const hostile::CylinderOnLobeKind*);
+template <template <class> class Shape>
+hostile::RoundKind<Shape> base_of(const hostile::RoundKind<Shape>*);
+template <template <class> class Shape>
+hostile::RoundOnLobeKind<Shape> base_of(const hostile::RoundOnLobeKind<Shape>*);
 template <class Kind>
 using BaseOf = decltype(base_of(static_cast<const Kind*>(nullptr)));
 

@@ -11,7 +11,7 @@ inline constexpr int kTimedLights = 256;
 inline constexpr int kLargestVertexCount = 8;
 
 /// Lights and random numbers, one column per light. Polygons with fewer vertices repeat the last one; lines and the axes
-/// of cylinders have two vertices.
+/// of cylinders have two vertices. Opposite ones of four vertices are the ends of two diameters of round lights.
 struct TimedLights {
     float coordinates[kLargestVertexCount][3][kTimedLights]; ///< in shading space [m]
     float world[kLargestVertexCount][3][kTimedLights];       ///< of the same lights [m]
@@ -22,8 +22,17 @@ struct TimedLights {
     float u[2][kTimedLights];
 };
 
-/// The names are those in techniques.json.
-enum class LightKind { polygon, polygon_on_lobe, line, line_on_lobe, cylinder, cylinder_on_lobe };
+/// The names are those in techniques.json, except that round lights are all of spheres, disks, ellipses and ellipsoids.
+enum class LightKind {
+    polygon,
+    polygon_on_lobe,
+    line,
+    line_on_lobe,
+    cylinder,
+    cylinder_on_lobe,
+    round,
+    round_on_lobe
+};
 
 constexpr bool is_polygon(LightKind kind) {
     return kind == LightKind::polygon || kind == LightKind::polygon_on_lobe;
@@ -34,7 +43,7 @@ constexpr bool is_cylinder(LightKind kind) {
 }
 constexpr bool has_lobe(LightKind kind) {
     return kind == LightKind::polygon_on_lobe || kind == LightKind::line_on_lobe ||
-           kind == LightKind::cylinder_on_lobe;
+           kind == LightKind::cylinder_on_lobe || kind == LightKind::round_on_lobe;
 }
 
 /// Groups of lights in the type that techniques take: as many in a group as a pack has lanes. All functions fill or read
@@ -53,7 +62,7 @@ struct TimedTechnique {
     const char* name;
     LightKind kind;
     int lanes;
-    int vertex_count; ///< the bound on the number of vertices; 2 for lines and cylinders
+    int vertex_count; ///< the bound on the number of vertices; 2 for lines and cylinders, 4 for round lights
     const TimedLightType* light_type;
     std::size_t size; ///< [bytes]
     /// Constructs the technique for a group of lights.

@@ -23,6 +23,8 @@ std::vector<TimedConfiguration> timed_configurations() {
     for (const LightKind kind :
          {LightKind::line, LightKind::line_on_lobe, LightKind::cylinder, LightKind::cylinder_on_lobe})
         for (const LightClass& lights : {kLineAbove, kCrossing}) add(kind, lights, 2);
+    for (const LightKind kind : {LightKind::round, LightKind::round_on_lobe})
+        for (const LightClass& lights : {kLineAbove, kCrossing}) add(kind, lights, 4);
     return result;
 }
 

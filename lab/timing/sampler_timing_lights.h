@@ -13,7 +13,7 @@ namespace nusselt::lab {
 struct TimedConfiguration {
     std::string name; ///< of the class, and the number of vertices of polygons
     LightKind kind;
-    int vertex_count; ///< 2 for lines and cylinders
+    int vertex_count; ///< 2 for lines and cylinders, 4 for round lights
     LightClass lights;
 };
 

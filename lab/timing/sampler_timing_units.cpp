@@ -19,6 +19,9 @@ constexpr Rows all_rows() {
         add_all<Real>(TestedBy<TimingSuite, LineOnLobeKinds>(), rows);
         add_all<Real>(TestedBy<TimingSuite, CylinderKinds>(), rows);
         add_all<Real>(TestedBy<TimingSuite, CylinderOnLobeKinds>(), rows);
+        // The baseline belongs to the first shape, the others cost it the same.
+        add_all<Real>(TestedBy<TimingSuite, RoundKinds>(), rows);
+        add_all<Real>(TestedBy<TimingSuite, RoundOnLobeKinds>(), rows);
     };
     add_kinds.template operator()<float>();
     add_kinds.template operator()<Native>();

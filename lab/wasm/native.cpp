@@ -54,6 +54,24 @@ void append_hostile_polygon(HostileLights<float>& lights, int count, Numbers& to
     for (int j = 0; j < count; ++j) append(to, v[j < filled ? j : filled - 1]);
 }
 
+bool is_round(std::string_view kind) {
+    return kind.substr(0, 6) == "sphere" || kind.substr(0, 4) == "disk" || kind.substr(0, 7) == "ellipse" ||
+           kind.substr(0, 9) == "ellipsoid";
+}
+/// The numbers of a sphere, disk, ellipse or ellipsoid.
+void append_round(std::string_view kind, const nusselt::Ellipsoid<float>& source, Numbers& to) {
+    append(to, source.center);
+    if (kind.substr(0, 9) == "ellipsoid") {
+        for (const Vec3<float>& axis : source.axis) append(to, axis);
+    } else if (kind.substr(0, 7) == "ellipse") {
+        append(to, source.axis[0]);
+        append(to, source.axis[1]);
+    } else {
+        if (kind.substr(0, 4) == "disk") append(to, nusselt::hostile::DiskKind::from(source).normal);
+        to.push_back(length(source.axis[0]));
+    }
+}
+
 /// The numbers of a light that tends to break samplers.
 Numbers hostile_light(std::string_view kind, int columns, HostileLights<float>& lights) {
     Numbers numbers;
@@ -62,7 +80,9 @@ Numbers hostile_light(std::string_view kind, int columns, HostileLights<float>& 
         for (const Vec3<float>& corner : rectangle.vertex) append(numbers, corner);
         return numbers;
     }
-    if (kind.substr(0, 7) == "polygon") {
+    if (is_round(kind)) {
+        append_round(kind, lights.ellipsoid(), numbers);
+    } else if (kind.substr(0, 7) == "polygon") {
         append_hostile_polygon<8>(lights, columns / 3 - (kind == "polygon" ? 0 : 1), numbers);
     } else {
         Vec3<float> ends[2];
@@ -94,6 +114,10 @@ Numbers ordinary_light(std::string_view kind, int columns, RandomSource& random)
                 start + kTurn * (j + (kind == "rectangle" ? 0 : 0.5 * random.uniform())) / count;
             append(numbers, rounded(middle + size * std::cos(angle) * across + size * std::sin(angle) * b));
         }
+    } else if (is_round(kind)) {
+        append_round(kind,
+                     {rounded(middle), {rounded(size * b), rounded(size * cross(a, b)), rounded(size * a)}},
+                     numbers);
     } else {
         append(numbers, rounded(middle - size * a));
         append(numbers, rounded(middle + size * a));

@@ -3,6 +3,7 @@
 
 #include "proof/accuracy/lights.h"
 #include "proof/accuracy/row.h"
+#include "proof/hostile/round_reference.h"
 #include "proof/techniques/registry.h"
 
 #include <algorithm>
@@ -188,6 +189,35 @@ private:
     }
 };
 
+/// Spheres, disks, ellipses and ellipsoids, with the same functions as PolygonInput.
+/// \tparam Shape one of them.
+template <template <class> class Shape>
+struct RoundInput : PairInput {
+    using Class = RoundClass;
+    using Kind = hostile::RoundKind<Shape>;
+    static constexpr int kVertexBound = 2;
+    template <class Real>
+    using Light = Shape<Real>;
+
+    static bool fits_plain(const RoundClass&) { return true; }
+
+    template <class Real>
+    static Light<Real> make(const Ellipsoid<float>& source) {
+        const auto widened = [](const Vec3<float>& v) { return broadcast<Real>(v); };
+        return Kind::from(
+            Ellipsoid<Real>{widened(source.center),
+                            {widened(source.axis[0]), widened(source.axis[1]), widened(source.axis[2])}});
+    }
+    template <class Real>
+    static Light<Exact> exact(const Light<Real>& rounded) {
+        return hostile::exact_light(rounded);
+    }
+    /// Angle by which a unit direction misses a light, 0 on it.
+    static Exact miss(const Light<Exact>& light, const Vec3<Exact>& wi) {
+        return hostile::round_miss(light, wi);
+    }
+};
+
 /// Lights with lobes.
 /// \tparam Input of the lights alone.
 /// \tparam Kind  of the technique, in the registry.
@@ -244,6 +274,11 @@ struct RectangleInput : PolygonInput<4> {
 
 namespace detail {
 
+template <template <class> class Shape>
+RoundInput<Shape> round_input_of(const hostile::AnyRoundKind<Shape>*) {
+    return {};
+}
+
 template <class Kind>
 auto input_of() {
     const auto geometry = [] {
@@ -253,6 +288,8 @@ auto input_of() {
             return PolygonInput<Kind::kVertices>();
         else if constexpr (hostile::kIsCylinder<Kind>)
             return CylinderInput();
+        else if constexpr (hostile::kIsRound<Kind>)
+            return round_input_of(static_cast<const Kind*>(nullptr));
         else
             return LineInput();
     };

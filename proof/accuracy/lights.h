@@ -2,6 +2,7 @@
 /// Classes of difficult lights in shading space. Their coordinates are floats, so every number type gets the same
 /// light. Lights without area or seen edge-on are exactly that.
 
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
@@ -49,11 +50,19 @@ struct CylinderClass {
     std::function<Cylinder<float>(Engine&)> make;
 };
 
+struct RoundClass {
+    const char* name;
+    Visibility visibility;
+    Ellipsoid<float> (*make)(Engine& engine); ///< from which other round lights are made
+};
+
 const std::vector<PolygonClass>& polygon_classes();
 const std::vector<LineClass>& line_classes();
 /// The lights of proof/tube_lights.h, turned around the normal and moved a little, as well as distant lights, lights
 /// that almost touch the point, and dark lights.
 const std::vector<CylinderClass>& cylinder_classes();
+/// Where a class makes spheres, disks or ellipses invisible, ellipsoids are, too.
+const std::vector<RoundClass>& round_classes();
 
 /// Draws a lobe, for example from a fitted table.
 using LobeSource = LtcCoefficients<float> (*)(Engine&);

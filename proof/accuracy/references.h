@@ -26,7 +26,11 @@ struct Judged : InputOf<AnyKind> {
 
     /// The unit direction around which the first random number turns.
     static Vec3<Exact> pole(const typename Input::template Light<Exact>& light) {
-        if constexpr (!hostile::kIsCylinder<Kind>) {
+        if constexpr (hostile::kIsRound<Kind>) {
+            // A direction in the light: u.x = 0 and u.x = 1 coincide around the axis of a cone. Where the horizon cuts it, they
+            // are opposite ends, which no rounding takes for each other.
+            return normalize(light.center);
+        } else if constexpr (!hostile::kIsCylinder<Kind>) {
             if constexpr (hostile::kHasLobe<Kind>)
                 return normalize(Ltc<Exact>(light.lobe).to_shading({0, 0, 1}));
             else

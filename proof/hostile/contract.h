@@ -70,12 +70,28 @@ struct Bounds {
         extent = extent + cylinder.radius;
     }
 
+    /// A box around round lights that is up to sqrt(3) times as large as needed: squares may leave the range of numbers.
+    explicit Bounds(const Sphere<Real>& light) noexcept
+        : Bounds(light.center, Vec3<Real>{light.radius, light.radius, light.radius}) {}
+    explicit Bounds(const Disk<Real>& light) noexcept
+        : Bounds(light.center, Vec3<Real>{light.radius, light.radius, light.radius}) {}
+    explicit Bounds(const Ellipse<Real>& light) noexcept
+        : Bounds(light.center, magnitudes(light.u) + magnitudes(light.v)) {}
+    explicit Bounds(const Ellipsoid<Real>& light) noexcept
+        : Bounds(light.center,
+                 magnitudes(light.axis[0]) + magnitudes(light.axis[1]) + magnitudes(light.axis[2])) {}
+
     mask_t<Real> contain(const Vec3<Real>& p, const Real& slack) const noexcept {
         return (p.x >= low.x - slack) & (p.x <= high.x + slack) & (p.y >= low.y - slack) &
                (p.y <= high.y + slack) & (p.z >= low.z - slack) & (p.z <= high.z + slack);
     }
 
 private:
+    Bounds(const Vec3<Real>& center, const Vec3<Real>& half) noexcept
+        : low(center - half),
+          high(center + half),
+          extent(max(largest_coordinate(low), largest_coordinate(high))) {}
+    static Vec3<Real> magnitudes(const Vec3<Real>& v) noexcept { return {abs(v.x), abs(v.y), abs(v.z)}; }
     void include(const Vec3<Real>& v) noexcept {
         low = min(low, v);
         high = max(high, v);
@@ -103,7 +119,7 @@ Real relative_width(const ConvexPolygon<Real, N>& light, const Real& extent) noe
 template <class Kind>
 inline constexpr double kAngleError = Kind::kBiased ? 1.3e-5 : 0;
 
-/// A point of a line must be on the line. The overloads of is_off() do not test the box around the light.
+/// A point of a line must be on the line. The overloads of is_off() for lines, cylinders and polygons do not test the box around the light.
 template <class Real>
 mask_t<Real> is_off(const LineSegment<Real>& light, const Bounds<Real>&, const Vec3<Real>& p,
                     const Real& slack, const Real&) noexcept {
@@ -120,6 +136,93 @@ mask_t<Real> is_off(const Cylinder<Real>& light, const Bounds<Real>&, const Vec3
     const Real outwards = length(cross(offset, light.axis.s)) - light.radius;
     const auto on_surface = abs(max(beyond, outwards)) <= slack;
     return !on_surface;
+}
+
+/// Rounding errors of directions move points of round lights along their surface, and points of flat ones also across it.
+template <class Real>
+mask_t<Real> is_off(const Sphere<Real>& light, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real& angle_error) noexcept {
+    const Real moved = Real(8) * angle_error * bounds.extent;
+    const auto on_surface = abs(length(p - light.center) - light.radius) <= slack + moved;
+    return !on_surface;
+}
+
+/// Whether a point is off the plane through another one, or far beyond the rim. As for polygons, nothing is required where the
+/// plane contains the shading point up to rounding.
+/// \param width relative to the length of the light.
+template <class Real>
+mask_t<Real> is_off_plane(const Vec3<Real>& normal, const Vec3<Real>& center, const Real& width,
+                          const Bounds<Real>& bounds, const Vec3<Real>& p, const Real& slack,
+                          const Real& angle_error) noexcept {
+    const Real distance = width * abs(dot(normal, center));
+    const auto apart = distance > slack;
+    // Next to the rim and the plane, the point moves with the angle to the plane, and that angle with its reciprocal.
+    const Real steepness = bounds.extent / select(apart, distance, Real(1));
+    const Real moved = Real(8) * angle_error * bounds.extent * steepness * steepness;
+    const auto off_plane = width * abs(dot(normal, p - center)) > slack + moved;
+    const auto outside = !bounds.contain(p, slack + moved);
+    return apart & (off_plane | outside);
+}
+template <class Real>
+mask_t<Real> is_off(const Disk<Real>& light, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real& angle_error) noexcept {
+    return is_off_plane(light.normal, light.center, Real(1), bounds, p, slack, angle_error);
+}
+
+/// The normal of an ellipse, and its width relative to its length, at most 1.
+template <class Real>
+struct EllipsePlane {
+    Vec3<Real> normal;
+    Real width;
+};
+template <class Real>
+EllipsePlane<Real> plane_of(const Ellipse<Real>& light) noexcept {
+    const Real scale = reciprocal_power_of_two(max(largest_coordinate(light.u), largest_coordinate(light.v)));
+    const Vec3<Real> u = scale * light.u, v = scale * light.v;
+    const Vec3<Real> area = cross(u, v);
+    const Real longest = max(max(dot(u, u), dot(v, v)), Real(std::numeric_limits<scalar_t<Real>>::min()));
+    return {normalize(area), min(length(area) / longest, Real(1))};
+}
+/// Rounded semi-diameters tilt the plane by the ratio of the rounding error to the width.
+template <class Real>
+mask_t<Real> is_off(const Ellipse<Real>& light, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real& angle_error) noexcept {
+    const auto plane = plane_of(light);
+    return is_off_plane(plane.normal, light.center, plane.width, bounds, p, slack, angle_error);
+}
+
+/// The space in which an ellipsoid is the unit sphere, where points have the coordinates dot(row, p - center) / unit.
+template <class Real>
+struct EllipsoidSpace {
+    Vec3<Real> row[3];
+    Real unit;      ///< a power of two [m]
+    Real thickness; ///< a bound on the shortest semi-axis relative to the unit
+};
+template <class Real>
+EllipsoidSpace<Real> space_of(const Ellipsoid<Real>& light) noexcept {
+    const Real scale =
+        reciprocal_power_of_two(max(max(largest_coordinate(light.axis[0]), largest_coordinate(light.axis[1])),
+                                    largest_coordinate(light.axis[2])));
+    const Vec3<Real> a = scale * light.axis[0], b = scale * light.axis[1], c = scale * light.axis[2];
+    const Real volume = dot(a, cross(b, c));
+    const Real inverse = Real(1) / select(volume != Real(0), volume, Real(1));
+    const Real longest = length(a) + length(b) + length(c);
+    return {{inverse * cross(b, c), inverse * cross(c, a), inverse * cross(a, b)},
+            reciprocal_power_of_two(scale),
+            abs(volume) / max(longest * longest, Real(std::numeric_limits<scalar_t<Real>>::min()))};
+}
+/// A point of an ellipsoid must be on its surface. Nothing is required of the thinnest ones, whose space is a matter of rounding.
+template <class Real>
+mask_t<Real> is_off(const Ellipsoid<Real>& light, const Bounds<Real>& bounds, const Vec3<Real>& p,
+                    const Real& slack, const Real& angle_error) noexcept {
+    const auto space = space_of(light);
+    const Real inverse_unit = reciprocal_power_of_two(space.unit);
+    const Vec3<Real> at = inverse_unit * (p - light.center);
+    const Vec3<Real> y{dot(space.row[0], at), dot(space.row[1], at), dot(space.row[2], at)};
+    // Rounding of the semi-diameters moves the surface by this in the space of the sphere.
+    const Real turned = Real(8) * angle_error * bounds.extent;
+    const Real moved = (slack + turned) * inverse_unit / (space.thickness * space.thickness);
+    return (moved < Real(0.1)) & (abs(length(y) - Real(1)) > moved);
 }
 
 /// The rounding errors of vertices and hit points across the plane of a polygon [m].
@@ -173,6 +276,12 @@ Real aim_slack(const Cylinder<Real>&, const Vec3<Real>&, const Vec3<Real>&, cons
                const Real& slack) noexcept {
     return slack;
 }
+/// Hit points of round lights are on the ray.
+template <class Real, template <class> class Shape>
+Real aim_slack(const Shape<Real>&, const Vec3<Real>&, const Vec3<Real>&, const Real&,
+               const Real& slack) noexcept {
+    return slack;
+}
 
 /// The largest difference between the density of a sample of the area of a light and that of its direction, relative
 /// to the density: rounding moves the point where the direction meets the light, and it moves it more at smaller
@@ -211,6 +320,35 @@ Real area_pdf_tolerance(const Cylinder<Real>& light, const Vec3<Real>& p, const 
                   Real(std::numeric_limits<T>::max()));
 }
 
+template <class Real>
+Real area_pdf_tolerance(const Disk<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
+    return Real(4) * slack / abs(dot(light.normal, p));
+}
+template <class Real>
+Real area_pdf_tolerance(const Ellipse<Real>& light, const Vec3<Real>& p, const Real&,
+                        const Real& slack) noexcept {
+    const auto plane = plane_of(light);
+    return Real(4) * slack / (plane.width * abs(dot(plane.normal, p)));
+}
+
+/// How much a lobe magnifies rounding errors of directions on their way from cosine space; 1 for other lights.
+template <class Real, class Light>
+Real magnification_of(const Light&, const Vec3<Real>&) noexcept {
+    return Real(1);
+}
+/// Close to the horizon of cosine space, where samples carry next to nothing, the rim of a wide image loses half of the digits.
+template <class Real, template <class> class Shape>
+Real magnification_of(const RoundOnLobe<Real, Shape>& light, const Vec3<Real>& wi) noexcept {
+    const Ltc<Real> ltc(light.lobe);
+    // The largest entry of the map to cosine space is of order one.
+    const Real back = max(largest_coordinate(ltc.to_shading({Real(1), Real(1), Real(1)})),
+                          largest_coordinate(ltc.to_shading({Real(1), Real(1), Real(-1)})));
+    constexpr auto kLeast = power_of_two<scalar_t<Real>>(-std::numeric_limits<scalar_t<Real>>::digits / 2);
+    const Real cosine = max(normalize(ltc.to_cosine(wi)).z, Real(kLeast));
+    return max(Real(4) * back / ltc.minor(), Real(1)) / cosine;
+}
+
 /// Calls report(mask, text) for each rule of the contract, with the lanes that break it and a description.
 template <class Kind, class Real, class Report>
 void check_contract(const typename Kind::template Light<Real>& light,
@@ -237,13 +375,16 @@ void check_contract(const typename Kind::template Light<Real>& light,
     const Bounds<Real> bounds(light);
     // The rounding errors of denormal numbers are absolute.
     const Real slack = fma(Real(kTolerance), bounds.extent, Real(16 * std::numeric_limits<T>::min()));
-    const Real angle_error(kAngleError<Kind> > 0 ? static_cast<T>(4 * kAngleError<Kind>)
-                                                 : std::numeric_limits<T>::epsilon());
+    const Real angle_error =
+        magnification_of<Real>(light, wi) * Real(kAngleError<Kind> > 0 ? static_cast<T>(4 * kAngleError<Kind>)
+                                                                       : std::numeric_limits<T>::epsilon());
     // Where less of a lobe than the rounding unit reaches a polygon, the map from cosine space magnifies rounding errors: hit
     // points are in the box around the light only.
-    const auto reached = mask_t<Real>(Kind::kMeasure != Measure::lobe || !kIsPolygon<Kind>) |
-                         (out.measure > Real(std::numeric_limits<T>::epsilon()));
-    const auto outside = !bounds.contain(p, slack);
+    const auto reached =
+        mask_t<Real>(Kind::kMeasure != Measure::lobe || !(kIsPolygon<Kind> || kIsRound<Kind>)) |
+        (out.measure > Real(std::numeric_limits<T>::epsilon()));
+    // For round lights, is_off() tests the box as well where it has to.
+    const auto outside = mask_t<Real>(!kIsRound<Kind>) & !bounds.contain(p, slack);
     report(sampled & (outside | (reached & is_off(light, bounds, p, slack, angle_error))),
            "p is off the light");
     // For 6e4 ordinary lights, the largest errors are 12 times the error of the angles.

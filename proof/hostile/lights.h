@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
@@ -135,6 +136,32 @@ public:
         Vec3<T> v[2];
         ends(v);
         return {make_line(v[0], v[1]), radius(v)};
+    }
+
+    /// The centre and the semi-diameters of an ellipsoid, from which other round lights are made.
+    void semi_diameters(Vec3<T> (&result)[4]) {
+        Vec v[4] = {random_.direction(), random_.direction(), random_.direction(), random_.direction()};
+        Vec& center = v[0];
+        if (random_.index(10) == 0) {
+            for (Vec& x : v) x = integer_vector();
+        } else {
+            const double size = random_.log_between(1e-6, 1e6);
+            const bool is_thin = random_.index(4) == 0;
+            // Perpendicular, but for thin lights.
+            v[2] = normalize(cross(v[1], v[2]));
+            v[3] = cross(v[1], v[2]);
+            for (int i = 1; i < 4; ++i)
+                v[i] = (size * (is_thin ? random_.log_between(1e-8, 1) : random_.between(0.5, 1))) * v[i];
+            if (is_thin) v[2] = v[2] + v[1];
+        }
+        for (int i = random_.index(3); i > 0; --i) deform(center, v);
+        const double unit = unit_of_length();
+        for (int j = 0; j < 4; ++j) result[j] = rounded(v[j], unit);
+    }
+    Ellipsoid<T> ellipsoid() {
+        Vec3<T> v[4];
+        semi_diameters(v);
+        return {v[0], {v[1], v[2], v[3]}};
     }
 
     /// A lobe, from an almost perfect mirror to a Lambertian one, seen from any inclination up to the horizon.
@@ -358,6 +385,44 @@ private:
             break;
         default:
             break;
+        }
+    }
+
+    /// \param v the centre and the semi-diameters.
+    void deform(Vec& center, Vec (&v)[4]) {
+        switch (random_.index(10)) {
+        case 0: // the point next to the surface or the rim, on either side
+            center = (1 + (random_.index(2) == 0 ? -1 : 1) * random_.log_between(1e-12, 1)) *
+                     v[1 + random_.index(3)];
+            break;
+        case 1: // on it
+            center = v[1 + random_.index(3)];
+            break;
+        case 2: // close to the inside of a disk
+            center = random_.between(-1, 1) * v[1] + random_.log_between(1e-12, 1) * v[3];
+            break;
+        case 3: // at the centre, or next to it
+            center = nudges();
+            break;
+        case 4: // on the horizon, or almost
+            center.z = nudge();
+            break;
+        case 5: // touches the horizon
+            center.z = std::sqrt(v[1].z * v[1].z + v[2].z * v[2].z) + nudge();
+            break;
+        case 6: // in the zenith
+            center.x = nudge();
+            center.y = nudge();
+            break;
+        case 7: // no extent in one direction
+            v[1 + random_.index(3)] = {0, 0, 0};
+            break;
+        case 8: // parallel semi-diameters
+            v[2] = random_.between(-1, 1) * v[1] + random_.log_between(1e-12, 1e-3) * v[2];
+            break;
+        default: // flat, or seen edge-on
+            v[3] = random_.log_between(1e-12, 1e-1) * v[3];
+            center = center - dot(center, normalize(v[3])) * normalize(v[3]);
         }
     }
 

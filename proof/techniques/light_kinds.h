@@ -4,6 +4,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include <nusselt/cones/round_lights.h>
 #include <nusselt/geometry/convex_polygon.h>
 #include <nusselt/geometry/cylinder.h>
 #include <nusselt/geometry/line_segment.h>
@@ -31,6 +32,13 @@ struct LineOnLobe : LineSegment<Real> {
 /// \copydoc PolygonOnLobe
 template <class Real>
 struct CylinderOnLobe : Cylinder<Real> {
+    LtcCoefficients<Real> lobe;
+};
+
+/// \copydoc PolygonOnLobe
+/// \tparam Shape Sphere, Disk, Ellipse or Ellipsoid.
+template <class Real, template <class> class Shape>
+struct RoundOnLobe : Shape<Real> {
     LtcCoefficients<Real> lobe;
 };
 
@@ -120,13 +128,60 @@ struct CylinderOnLobeKind : AnyCylinderKind {
     using Light = CylinderOnLobe<Real>;
 };
 
+/// The base of all kinds of round lights.
+struct RoundTag : AnyKind {};
+/// Spheres, disks, ellipses and ellipsoids. Generators make ellipsoids.
+template <template <class> class Shape>
+struct AnyRoundKind : RoundTag {
+    template <class Real>
+    using Random = Vec2<Real>;
+    using AnyKind::from;
+    /// The sphere with the first semi-diameter of an ellipsoid, the disk with the first one across the third one, or the
+    /// ellipse with the first two.
+    template <class Real>
+    NUSSELT_HD static Shape<Real> from(const Ellipsoid<Real>& e) noexcept {
+        if constexpr (std::is_same_v<Shape<Real>, Sphere<Real>>) {
+            return {e.center, length(e.axis[0])};
+        } else if constexpr (std::is_same_v<Shape<Real>, Disk<Real>>) {
+            const Vec3<Real> normal = normalize(e.axis[2]);
+            const auto missing = dot(normal, normal) == Real(0);
+            return {e.center, select(missing, Vec3<Real>{Real(0), Real(0), Real(1)}, normal),
+                    length(e.axis[0])};
+        } else if constexpr (std::is_same_v<Shape<Real>, Ellipse<Real>>) {
+            return {e.center, e.axis[0], e.axis[1]};
+        } else {
+            return e;
+        }
+    }
+};
+template <template <class> class Shape>
+struct RoundKind : AnyRoundKind<Shape> {
+    template <class Real>
+    using Light = Shape<Real>;
+};
+template <template <class> class Shape>
+struct RoundOnLobeKind : AnyRoundKind<Shape> {
+    template <class Real>
+    using Light = RoundOnLobe<Real, Shape>;
+};
+using SphereKind = RoundKind<Sphere>;
+using SphereOnLobeKind = RoundOnLobeKind<Sphere>;
+using DiskKind = RoundKind<Disk>;
+using DiskOnLobeKind = RoundOnLobeKind<Disk>;
+using EllipseKind = RoundKind<Ellipse>;
+using EllipseOnLobeKind = RoundOnLobeKind<Ellipse>;
+using EllipsoidKind = RoundKind<Ellipsoid>;
+using EllipsoidOnLobeKind = RoundOnLobeKind<Ellipsoid>;
+
+template <class Kind>
+inline constexpr bool kIsRound = std::is_base_of_v<RoundTag, Kind>;
 template <class Kind>
 inline constexpr bool kIsCylinder = std::is_base_of_v<AnyCylinderKind, Kind>;
 template <class Kind>
 inline constexpr bool kIsPolygon = std::is_base_of_v<AnyPolygonKind, Kind>;
 /// Whether samples take two random numbers.
 template <class Kind>
-inline constexpr bool kTakesPairs = kIsPolygon<Kind> || kIsCylinder<Kind>;
+inline constexpr bool kTakesPairs = kIsPolygon<Kind> || kIsCylinder<Kind> || kIsRound<Kind>;
 /// Whether the light comes with a lobe.
 template <class Kind>
 inline constexpr bool kHasLobe = Kind::kMeasure == Measure::lobe;

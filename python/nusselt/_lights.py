@@ -209,3 +209,83 @@ class CylinderOnLobe(Technique):
         lobe: a Lobe or its matrices (..., 5), from LtcTable.lobe().
         """
         super().__init__(_line(begin, end) + [("radius", radius, ())] + _lobe(lobe), dtype)
+
+
+class Sphere(Technique):
+    """A technique for spheres."""
+
+    def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, *, dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; radius: (...) [m]. From inside, all directions lead to the light."""
+        super().__init__([("center", center, (3,)), ("radius", radius, ())], dtype)
+
+
+class SphereOnLobe(Technique):
+    """A technique for spheres that light a glossy surface."""
+
+    def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, lobe: Lobe | npt.ArrayLike, *,
+                 dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; radius: (...) [m]. From inside, all directions lead to the light.
+
+        lobe: a Lobe or its matrices (..., 5), from LtcTable.lobe().
+        """
+        super().__init__([("center", center, (3,)), ("radius", radius, ())] + _lobe(lobe), dtype)
+
+
+class Disk(Technique):
+    """A technique for disks."""
+
+    def __init__(self, center: npt.ArrayLike, normal: npt.ArrayLike, radius: npt.ArrayLike, *, dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; normal: (..., 3) of unit length, to either side; radius: (...) [m]."""
+        super().__init__([("center", center, (3,)), ("normal", normal, (3,)), ("radius", radius, ())], dtype)
+
+
+class DiskOnLobe(Technique):
+    """A technique for disks that light a glossy surface."""
+
+    def __init__(self, center: npt.ArrayLike, normal: npt.ArrayLike, radius: npt.ArrayLike, lobe: Lobe | npt.ArrayLike, *,
+                 dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; normal: (..., 3) of unit length, to either side; radius: (...) [m].
+
+        lobe: a Lobe or its matrices (..., 5), from LtcTable.lobe().
+        """
+        super().__init__([("center", center, (3,)), ("normal", normal, (3,)), ("radius", radius, ())] + _lobe(lobe), dtype)
+
+
+class Ellipse(Technique):
+    """A technique for ellipses."""
+
+    def __init__(self, center: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, *, dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; u, v: (..., 3) conjugate semi-diameters [m], which need not be perpendicular."""
+        super().__init__([("center", center, (3,)), ("u", u, (3,)), ("v", v, (3,))], dtype)
+
+
+class EllipseOnLobe(Technique):
+    """A technique for ellipses that light a glossy surface."""
+
+    def __init__(self, center: npt.ArrayLike, u: npt.ArrayLike, v: npt.ArrayLike, lobe: Lobe | npt.ArrayLike, *,
+                 dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; u, v: (..., 3) conjugate semi-diameters [m], which need not be perpendicular.
+
+        lobe: a Lobe or its matrices (..., 5), from LtcTable.lobe().
+        """
+        super().__init__([("center", center, (3,)), ("u", u, (3,)), ("v", v, (3,))] + _lobe(lobe), dtype)
+
+
+class Ellipsoid(Technique):
+    """A technique for ellipsoids."""
+
+    def __init__(self, center: npt.ArrayLike, axes: npt.ArrayLike, *, dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; axes: (..., 3, 3) three conjugate semi-diameters in rows [m]."""
+        super().__init__([("center", center, (3,)), ("axes", axes, (3, 3))], dtype)
+
+
+class EllipsoidOnLobe(Technique):
+    """A technique for ellipsoids that light a glossy surface."""
+
+    def __init__(self, center: npt.ArrayLike, axes: npt.ArrayLike, lobe: Lobe | npt.ArrayLike, *,
+                 dtype: npt.DTypeLike = None) -> None:
+        """center: (..., 3) [m]; axes: (..., 3, 3) three conjugate semi-diameters in rows [m].
+
+        lobe: a Lobe or its matrices (..., 5), from LtcTable.lobe().
+        """
+        super().__init__([("center", center, (3,)), ("axes", axes, (3, 3))] + _lobe(lobe), dtype)

@@ -10,6 +10,7 @@
 #include <cuda_runtime.h>
 #include <nusselt/nusselt.h>
 
+#include "proof/hostile/round_reference.h"
 #include "proof/techniques/registry.h"
 #include "proof/tube_lights.h"
 
@@ -45,6 +46,13 @@ nusselt::LineSegment<float> line(unsigned i) {
     return nusselt::make_line(corners.vertex[0], corners.vertex[2]);
 }
 
+nusselt::Ellipsoid<float> ellipsoid(unsigned i) {
+    const auto corners = polygon(3 * i + 1);
+    const auto& v = corners.vertex;
+    const auto a = 0.5f * (v[0] - v[2]), b = 0.5f * (v[1] - v[3]);
+    return {0.5f * (v[0] + v[2]), {a, b, 0.5f * normalize(cross(a, b))}};
+}
+
 template <class Real>
 nusselt::LtcCoefficients<Real> lobe() {
     const auto& c = nusselt::proof::kGlossyLobe;
@@ -60,11 +68,13 @@ typename Kind::template Light<float> light_of(unsigned i) {
             return polygon(i);
         else if constexpr (nusselt::hostile::kIsCylinder<Kind>)
             return nusselt::Cylinder<float>{line(i), 0.125f + 0.0625f * coordinate(11, i)};
+        else if constexpr (nusselt::hostile::kIsRound<Kind>)
+            return ellipsoid(i);
         else
             return line(i);
     }();
     if constexpr (nusselt::hostile::kHasLobe<Kind>)
-        return {geometry, lobe<float>()};
+        return {Kind::from(geometry), lobe<float>()};
     else
         return Kind::from(geometry);
 }
@@ -114,6 +124,16 @@ nusselt::hostile::LineOnLobe<long double> widened(const nusselt::hostile::LineOn
 nusselt::hostile::CylinderOnLobe<long double> widened(const nusselt::hostile::CylinderOnLobe<float>& light) {
     const nusselt::Cylinder<float>& geometry = light;
     return {widened(geometry), lobe<long double>()};
+}
+
+template <template <class> class Shape>
+Shape<long double> widened(const Shape<float>& light) {
+    return nusselt::hostile::exact_light(light);
+}
+template <template <class> class Shape>
+nusselt::hostile::RoundOnLobe<long double, Shape>
+widened(const nusselt::hostile::RoundOnLobe<float, Shape>& light) {
+    return {nusselt::hostile::exact_light(static_cast<const Shape<float>&>(light)), lobe<long double>()};
 }
 
 template <class Kind>

@@ -80,4 +80,16 @@ private:
     }
 };
 
+/// \name The technique for each shape.
+/// @{
+template <class Real>
+using SphereLtc = ConeLtc<Real, Sphere>;
+template <class Real>
+using DiskLtc = ConeLtc<Real, Disk>;
+template <class Real>
+using EllipseLtc = ConeLtc<Real, Ellipse>;
+template <class Real>
+using EllipsoidLtc = ConeLtc<Real, Ellipsoid>;
+/// @}
+
 NUSSELT_NAMESPACE_END

@@ -72,4 +72,16 @@ private:
     }
 };
 
+/// \name The technique for each shape.
+/// @{
+template <class Real>
+using SphereProjectedSolidAngle = ConeProjectedSolidAngle<Real, Sphere>;
+template <class Real>
+using DiskProjectedSolidAngle = ConeProjectedSolidAngle<Real, Disk>;
+template <class Real>
+using EllipseProjectedSolidAngle = ConeProjectedSolidAngle<Real, Ellipse>;
+template <class Real>
+using EllipsoidProjectedSolidAngle = ConeProjectedSolidAngle<Real, Ellipsoid>;
+/// @}
+
 NUSSELT_NAMESPACE_END

@@ -146,4 +146,16 @@ private:
     }
 };
 
+/// \name The technique for each shape.
+/// @{
+template <class Real>
+using SphereSolidAngle = ConeSolidAngle<Real, Sphere>;
+template <class Real>
+using DiskSolidAngle = ConeSolidAngle<Real, Disk>;
+template <class Real>
+using EllipseSolidAngle = ConeSolidAngle<Real, Ellipse>;
+template <class Real>
+using EllipsoidSolidAngle = ConeSolidAngle<Real, Ellipsoid>;
+/// @}
+
 NUSSELT_NAMESPACE_END

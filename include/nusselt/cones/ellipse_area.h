@@ -14,7 +14,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr], squared distance over area times cosine at the light.
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no area, or the origin in the plane of the light: pdf = 0.
-template <class Real, template <class> class Light>
+template <class Real, template <class> class Light = Ellipse>
 class EllipseArea {
     using Scalar = scalar_t<Real>;
 
@@ -25,7 +25,11 @@ public:
         const Vec3<Real> area = cross(view_.u, view_.v);
         const Real size = length(area);
         normal_ = normalize(area);
-        area_ = Real(kPi<Scalar>) * size;
+        const Real area_of_unit = Real(kPi<Scalar>) * size;
+        measure_ = min(area_of_unit * view_.inverse_scale * view_.inverse_scale,
+                       Real(std::numeric_limits<Scalar>::max()));
+        // Areas below the smallest number are none.
+        area_ = select(measure_ > Real(0), area_of_unit, Real(0));
         plane_ = dot(normal_, view_.center);
         const Real inverse = detail::over_positive(Real(1), size);
         to_u_ = inverse * cross(view_.v, normal_);
@@ -70,18 +74,23 @@ public:
     }
 
     /// Area of the light [m^2].
-    NUSSELT_HD Real measure() const noexcept { return area_ * view_.inverse_scale * view_.inverse_scale; }
+    NUSSELT_HD Real measure() const noexcept { return measure_; }
 
 private:
     LightView<Light<Real>> view_;
     Vec3<Real> normal_, to_u_, to_v_; ///< unit; from points to shares of the semi-diameters
+    Real measure_;                    ///< [m^2]
     Real area_, plane_;               ///< area and distance of the plane, scaled
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.view_, self.normal_, self.to_u_, self.to_v_, self.area_, self.plane_);
+        visit(self.view_, self.normal_, self.to_u_, self.to_v_, self.measure_, self.area_, self.plane_);
     }
 };
+
+/// The technique for disks.
+template <class Real>
+using DiskArea = EllipseArea<Real, Disk>;
 
 NUSSELT_NAMESPACE_END

@@ -183,7 +183,8 @@ template <class Real>
 NUSSELT_HD inline EllipticCone<Real> cone_of_ellipse(const Vec3<Real>& u, const Vec3<Real>& v,
                                                      const Vec3<Real>& centre,
                                                      const Vec3<Real>& front) noexcept {
-    constexpr int kSweeps = std::is_same_v<scalar_t<Real>, long double> ? 5 : 4;
+    constexpr bool kIsFloat = std::is_same_v<scalar_t<Real>, float>;
+    constexpr int kSweeps = kIsFloat ? 4 : std::is_same_v<scalar_t<Real>, double> ? 5 : 6;
     const Real one = Real(1), zero = Real(0);
     detail::ConeColumns<Real> k{u, v, centre, {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}}};
     for (int i = 0; i < kSweeps; ++i) {
@@ -232,7 +233,9 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     const Real p = length(side);
     const Real signed_height = dot(normal, centre);
     const Real h = abs(signed_height);
-    const Vec3<Real> e2 = select(p > Real(0), normalize(side), Frame<Real>::from_normal(normal).t);
+    // Next to the axis, the direction of denormal numbers would be one of rounding.
+    const Vec3<Real> e2 =
+        select(p > Real(kTiny<Scalar>), normalize(side), Frame<Real>::from_normal(normal).t);
     const Vec3<Real> m = cross(e2, normal);
     const Real near = detail::hypotenuse(h, p - radius), far = detail::hypotenuse(h, p + radius);
     const Real distance = length(centre);

@@ -114,10 +114,11 @@ public:
         Real z = invert_linear(u);
         if (any(is_polynomial_)) {
             // Where the interpolants are close enough for the polynomial to be used, two steps have errors below 1e-6.
+            constexpr int kSteps = kIsSingle<Real> ? 2 : 4;
             const Real goal = u * integral();
             Real refined = z;
             NUSSELT_UNROLL
-            for (int i = 0; i < 2; ++i) {
+            for (int i = 0; i < kSteps; ++i) {
                 const Real slope = polynomial_value(refined);
                 const Real step =
                     (polynomial_below(refined) - goal) / select(slope > Real(0), slope, Real(1));

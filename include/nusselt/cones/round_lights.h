@@ -231,10 +231,9 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Sphere<Real>& light, const 
     const Real distance = length(view.center);
     view.is_inside = distance < radius;
     const Real safe = select(distance > Real(0), distance, Real(1));
-    const Vec3<Real> to_centre = (Real(1) / safe) * view.center;
     const Frame<Real> frame = Frame<Real>::from_normal(
-        select(distance > Real(0), to_centre, Vec3<Real>{Real(0), Real(0), Real(1)}));
-    view.closeness = radius / max(safe, Real(std::numeric_limits<scalar_t<Real>>::min()));
+        select(distance > Real(0), normalize(view.center), Vec3<Real>{Real(0), Real(0), Real(1)}));
+    view.closeness = radius / max(distance, Real(std::numeric_limits<scalar_t<Real>>::min()));
     view.rim = sqrt(max((distance - radius) * (distance + radius), Real(0))) / safe;
     view.w = radius * frame.n;
     view.u = radius * frame.t;
@@ -269,7 +268,10 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Ellipsoid<Real>& light, con
     const Vec3<Real> a = up * light.axis[0], b = up * light.axis[1], c = up * light.axis[2];
     const Vec3<Real> bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
     const Real volume = dot(a, bc);
-    const auto solid = abs(volume) > Real(kTiny<scalar_t<Real>>);
+    // Of coplanar semi-diameters, the volume is a matter of rounding.
+    const Real terms = abs(a.x * bc.x) + abs(a.y * bc.y) + abs(a.z * bc.z);
+    const auto solid = abs(volume) > max(Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * terms,
+                                         Real(kTiny<scalar_t<Real>>));
     const Real inverse_volume = Real(1) / select(solid, volume, Real(1));
     const Vec3<Real> unit{inverse_volume * dot(bc, view.center), inverse_volume * dot(ca, view.center),
                           inverse_volume * dot(ab, view.center)};
@@ -278,9 +280,9 @@ NUSSELT_HD inline SolidLightView<Real> view_of(const Ellipsoid<Real>& light, con
     view.is_inside = solid & (distance < down);
     const auto centred = !(distance > Real(0));
     const Real safe = select(centred, Real(1), distance);
-    const Frame<Real> frame = Frame<Real>::from_normal(
-        select(centred, Vec3<Real>{Real(0), Real(0), Real(1)}, (Real(1) / safe) * unit));
-    view.closeness = down / max(safe, Real(std::numeric_limits<scalar_t<Real>>::min()));
+    const Frame<Real> frame =
+        Frame<Real>::from_normal(select(centred, Vec3<Real>{Real(0), Real(0), Real(1)}, normalize(unit)));
+    view.closeness = down / max(distance, Real(std::numeric_limits<scalar_t<Real>>::min()));
     view.rim = sqrt(max((distance - down) * (distance + down), Real(0))) / safe;
     const auto to_light = [&](const Vec3<Real>& x) { return down * (x.x * a + (x.y * b + x.z * c)); };
     view.w = to_light(frame.n);

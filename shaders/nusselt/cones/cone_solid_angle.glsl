@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_SOLID_ANGLE_GLSL
-// Follows include/nusselt/cones/cone_solid_angle.h @ 5b7f0e4fcfff
+// Follows include/nusselt/cones/cone_solid_angle.h @ 659766bd7698
 /// Sampling of the solid angle of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()), for
 /// surfaces and for volumes. Twin of include/nusselt/cones/cone_solid_angle.h, which has the measure and the edge
 /// cases.

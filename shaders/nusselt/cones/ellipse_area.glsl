@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPSE_AREA_GLSL
 #define NUSSELT_CONES_ELLIPSE_AREA_GLSL
-// Follows include/nusselt/cones/ellipse_area.h @ 960f48cc3267
+// Follows include/nusselt/cones/ellipse_area.h @ 1fe3791c5d25
 /// Sampling of ellipses (disks: disk_light()) uniformly by area: for references, and to compare with. Twin of
 /// include/nusselt/cones/ellipse_area.h.
 ///
@@ -16,6 +16,7 @@ struct EllipseArea {
     vec3 center, u, v;    ///< scaled to an extent of order one
     vec3 normal;          ///< unit
     vec3 to_u, to_v;      ///< from points to shares of the semi-diameters
+    float measure;        ///< [m^2]
     float area, distance; ///< of the light and of its plane, scaled
     float inverse_scale;
 };
@@ -31,7 +32,10 @@ EllipseArea ellipse_area_prepare(const Ellipse light) {
     vec3 area = nusselt_cross(self.u, self.v);
     float size = nusselt_length(area);
     self.normal = nusselt_normalize(area);
-    self.area = kNusseltPi * size;
+    float area_of_unit = kNusseltPi * size;
+    self.measure = nusselt_min(area_of_unit * self.inverse_scale * self.inverse_scale, kNusseltLargest);
+    // Areas below the smallest number are none.
+    self.area = self.measure > 0.0 ? area_of_unit : 0.0;
     self.distance = dot(self.normal, self.center);
     float inverse = over_positive(1.0, size);
     self.to_u = inverse * nusselt_cross(self.v, self.normal);
@@ -40,7 +44,7 @@ EllipseArea ellipse_area_prepare(const Ellipse light) {
 }
 
 /// Area of the light [m^2].
-float ellipse_area_measure(const EllipseArea self) { return self.area * self.inverse_scale * self.inverse_scale; }
+float ellipse_area_measure(const EllipseArea self) { return self.measure; }
 
 /// \param wi a unit direction towards the light.
 float ellipse_area_pdf(const EllipseArea self, vec3 wi) {

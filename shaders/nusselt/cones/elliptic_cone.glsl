@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 61c8920d5d8f
+// Follows include/nusselt/cones/elliptic_cone.h @ 82cd891f22f4
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 

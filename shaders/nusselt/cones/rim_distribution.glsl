@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_DISTRIBUTION_GLSL
 #define NUSSELT_CONES_RIM_DISTRIBUTION_GLSL
-// Follows include/nusselt/cones/rim_distribution.h @ c24e88585e5c
+// Follows include/nusselt/cones/rim_distribution.h @ 90688f206bda
 /// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function, known at 16 places. Twin of
 /// include/nusselt/cones/rim_distribution.h, where the polynomials are described.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ROUND_LIGHTS_GLSL
 #define NUSSELT_CONES_ROUND_LIGHTS_GLSL
-// Follows include/nusselt/cones/round_lights.h @ bfd0f950a014
+// Follows include/nusselt/cones/round_lights.h @ b35b2e967567
 /// Spheres, disks, ellipses and ellipsoids as lights, and what a point sees of them: an elliptic cone, and the way
 /// from a point of its disk back to the light. Twin of include/nusselt/cones/round_lights.h, which has types of their
 /// own for spheres and disks.
@@ -116,15 +116,16 @@ RoundLightView view_without_cone(const Ellipsoid light) {
     vec3 ca = nusselt_cross(c, a);
     vec3 ab = nusselt_cross(a, b);
     float volume = dot(a, bc);
-    bool solid = abs(volume) > kNusseltTiny;
+    // Of coplanar semi-diameters, the volume is a matter of rounding.
+    bool solid = abs(volume) > nusselt_max((4.0 * kNusseltEpsilon) * dot(abs(a), abs(bc)), kNusseltTiny);
     float inverse_volume = 1.0 / (solid ? volume : 1.0);
     vec3 unit = inverse_volume * vec3(dot(bc, self.center), dot(ca, self.center), dot(ab, self.center));
     float down = scale * reciprocal_power_of_two(up); // how large the axes are
     float distance = nusselt_length(unit);
     self.is_inside = solid && distance < down;
     float safe = distance > 0.0 ? distance : 1.0;
-    Frame frame = frame_from_normal(distance > 0.0 ? (1.0 / safe) * unit : vec3(0.0, 0.0, 1.0));
-    self.closeness = down / nusselt_max(safe, kNusseltSmallestNormal);
+    Frame frame = frame_from_normal(distance > 0.0 ? nusselt_normalize(unit) : vec3(0.0, 0.0, 1.0));
+    self.closeness = down / nusselt_max(distance, kNusseltSmallestNormal);
     self.rim = sqrt(nusselt_max((distance - down) * (distance + down), 0.0)) / safe;
     self.w = down * (frame.n.x * a + (frame.n.y * b + frame.n.z * c));
     self.u = down * (frame.t.x * a + (frame.t.y * b + frame.t.z * c));

@@ -8,6 +8,7 @@
 
 #include "contract.h"
 #include "geometry/reference.h"
+#include "proof/hostile/round_reference.h"
 
 namespace nusselt_test {
 
@@ -46,6 +47,27 @@ template <class T>
 CylinderOnLobe<long double> widened(const CylinderOnLobe<T>& light) {
     const nusselt::Cylinder<T>& cylinder = light;
     return {widened(cylinder), widened(light.lobe)};
+}
+
+template <class T>
+nusselt::Sphere<long double> widened(const nusselt::Sphere<T>& light) {
+    return exact_light(light);
+}
+template <class T>
+nusselt::Disk<long double> widened(const nusselt::Disk<T>& light) {
+    return exact_light(light);
+}
+template <class T>
+nusselt::Ellipse<long double> widened(const nusselt::Ellipse<T>& light) {
+    return exact_light(light);
+}
+template <class T>
+nusselt::Ellipsoid<long double> widened(const nusselt::Ellipsoid<T>& light) {
+    return exact_light(light);
+}
+template <class T, template <class> class Shape>
+RoundOnLobe<long double, Shape> widened(const RoundOnLobe<T, Shape>& light) {
+    return {widened(static_cast<const Shape<T>&>(light)), widened(light.lobe)};
 }
 
 /// How far a direction passes beyond the farthest of the planes through the origin and the sides of a triangle [rad];
@@ -95,6 +117,27 @@ long double miss(const nusselt::Cylinder<T>& light, const Point& wi) {
     return 1;
 }
 
+template <class T, template <class> class Shape>
+long double round_light_miss(const Shape<T>& light, const Point& wi) {
+    return round_miss(widened(light), wi);
+}
+template <class T>
+long double miss(const nusselt::Sphere<T>& light, const Point& wi) {
+    return round_light_miss(light, wi);
+}
+template <class T>
+long double miss(const nusselt::Disk<T>& light, const Point& wi) {
+    return round_light_miss(light, wi);
+}
+template <class T>
+long double miss(const nusselt::Ellipse<T>& light, const Point& wi) {
+    return round_light_miss(light, wi);
+}
+template <class T>
+long double miss(const nusselt::Ellipsoid<T>& light, const Point& wi) {
+    return round_light_miss(light, wi);
+}
+
 /// Distance of the origin from the infinite line of a light.
 inline long double carrier_distance(const nusselt::LineSegment<long double>& wide) {
     return length(cross(wide.p0, wide.s));
@@ -121,10 +164,38 @@ inline long double sturdiness(const nusselt::Cylinder<long double>& wide, long d
         {std::fabs(outside) / extent, gap / extent, wide.axis.length / extent, wide.radius / extent, 1.0L});
 }
 
+/// For round lights, the distances of the plane or the surface and the width.
+inline long double sturdiness(const nusselt::Sphere<long double>& wide, long double extent) {
+    return std::min({std::fabs(length(wide.center) - wide.radius) / extent, wide.radius / extent, 1.0L});
+}
+inline long double sturdiness(const nusselt::Disk<long double>& wide, long double extent) {
+    return std::min({std::fabs(dot(wide.normal, wide.center)) / extent, wide.radius / extent, 1.0L});
+}
+inline long double sturdiness(const nusselt::Ellipse<long double>& wide, long double extent) {
+    const auto area = cross(wide.u, wide.v);
+    const long double longest = std::max(length(wide.u), length(wide.v));
+    return std::min(
+        {std::fabs(dot(normalize(area), wide.center)) / extent, length(area) / longest / extent, 1.0L});
+}
+inline long double sturdiness(const nusselt::Ellipsoid<long double>& wide, long double extent) {
+    const auto space = space_of(wide);
+    const auto at = (1 / space.unit) * wide.center;
+    const long double away = std::hypot(dot(space.row[0], at), dot(space.row[1], at), dot(space.row[2], at));
+    const long double width = space.thickness * space.unit;
+    return std::min({std::fabs(away - 1) * width / extent, width / extent, 1.0L});
+}
+
+template <template <class> class Shape>
+long double solid_angle_of(const Shape<long double>& wide) {
+    return nusselt::ConeSolidAngle<long double, Shape>(wide).measure();
+}
+
 /// How large a light appears to a technique, without a unit: its measure, multiplied by the distance for lines.
 template <class Kind, class WideLight>
 long double apparent_size(const WideLight& wide) {
-    if constexpr (kIsCylinder<Kind>) {
+    if constexpr (kIsRound<Kind> && Kind::kMeasure == Measure::area) {
+        return solid_angle_of(wide);
+    } else if constexpr (kIsCylinder<Kind> || kIsRound<Kind>) {
         return typename Kind::template Technique<long double>(wide).measure();
     } else if constexpr (!kIsPolygon<Kind>) {
         if constexpr (Kind::kMeasure == Measure::area) return apparent_size<LineSolidAngleKind>(wide);

@@ -37,12 +37,14 @@ typename Kind::template Light<T> hostile_light(HostileLights<T>& lights) {
             return lights.template polygon<Kind::kVertices>();
         } else if constexpr (kIsCylinder<Kind>) {
             return lights.cylinder();
+        } else if constexpr (kIsRound<Kind>) {
+            return lights.ellipsoid();
         } else {
             return lights.line();
         }
     }();
     if constexpr (kHasLobe<Kind>) {
-        return {light, lights.lobe()};
+        return {Kind::from(light), lights.lobe()};
     } else {
         return Kind::from(light);
     }

@@ -1,4 +1,4 @@
-/// All techniques for lobes, lines and cylinders on hostile lights, in long double.
+/// All techniques for lobes, lines, cylinders and round lights on hostile lights, in long double.
 
 #include "hostile_test.h"
 
@@ -12,6 +12,9 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Lines, HostileTest, HostileLongDouble<LineKinds>,
 INSTANTIATE_TYPED_TEST_SUITE_P(LinesOnLobes, HostileTest, HostileLongDouble<LineOnLobeKinds>, InstanceNames);
 INSTANTIATE_TYPED_TEST_SUITE_P(Cylinders, HostileTest, HostileLongDouble<CylinderKinds>, InstanceNames);
 INSTANTIATE_TYPED_TEST_SUITE_P(CylindersOnLobes, HostileTest, HostileLongDouble<CylinderOnLobeKinds>,
+                               InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(Rounds, HostileTest, HostileLongDouble<RoundKinds>, InstanceNames);
+INSTANTIATE_TYPED_TEST_SUITE_P(RoundsOnLobes, HostileTest, HostileLongDouble<RoundOnLobeKinds>,
                                InstanceNames);
 
 } // namespace nusselt_test

@@ -62,12 +62,12 @@ void expect_contract(std::uint64_t seed, int configurations) {
     EXPECT_GT(lit, configurations / 5);
 }
 
-/// Polygons with many vertices are slower and share their code with quadrilaterals, so they have fewer
-/// configurations.
+/// Polygons with many vertices are slower and share their code with quadrilaterals, and round lights share theirs with one
+/// another, so they have fewer configurations.
 template <class Kind>
 constexpr int kShare = [] {
     if constexpr (kIsPolygon<Kind>) return Kind::kVertices > 4 ? 10 : 1;
-    return 1;
+    return kIsRound<Kind> ? 10 : 1;
 }();
 
 template <class Test>

@@ -148,6 +148,36 @@ T distance_to(const nusselt::Cylinder<T>& cylinder, const nusselt::Vec3<T>& p) {
     return std::fabs(std::max({outwards, -along, along - cylinder.axis.length}));
 }
 
+template <class T>
+T distance_to(const nusselt::Sphere<T>& sphere, const nusselt::Vec3<T>& p) {
+    return std::fabs(length(p - sphere.center) - sphere.radius);
+}
+template <class T>
+T distance_to(const nusselt::Disk<T>& disk, const nusselt::Vec3<T>& p) {
+    const auto offset = p - disk.center;
+    return std::max(std::fabs(dot(disk.normal, offset)), length(offset) - disk.radius);
+}
+/// Distance from the plane; beyond the rim, that from it up to a factor.
+template <class T>
+T distance_to(const nusselt::Ellipse<T>& ellipse, const nusselt::Vec3<T>& p) {
+    const auto area = cross(ellipse.u, ellipse.v);
+    const auto offset = p - ellipse.center;
+    const T x = dot(cross(offset, ellipse.v), area) / dot(area, area);
+    const T y = dot(cross(ellipse.u, offset), area) / dot(area, area);
+    return std::max(std::fabs(dot(normalize(area), offset)), (std::hypot(x, y) - 1) * length(ellipse.v));
+}
+/// Distance from the surface up to a factor.
+template <class T>
+T distance_to(const nusselt::Ellipsoid<T>& e, const nusselt::Vec3<T>& p) {
+    const auto offset = p - e.center;
+    const T volume = dot(e.axis[0], cross(e.axis[1], e.axis[2]));
+    const auto share = [&](int i) {
+        return dot(offset, cross(e.axis[(i + 1) % 3], e.axis[(i + 2) % 3])) / volume;
+    };
+    const T radius = std::hypot(share(0), share(1), share(2));
+    return std::fabs(radius - 1) * std::min({length(e.axis[0]), length(e.axis[1]), length(e.axis[2])});
+}
+
 TYPED_TEST(InversionTest, HitPointLiesOnTheLight) {
     using T = typename TypeParam::Real;
     using Kind = typename TypeParam::Kind;

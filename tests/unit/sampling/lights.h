@@ -100,6 +100,26 @@ inline std::vector<LineCase> line_cases() {
 
 inline std::vector<CylinderCase> cylinder_cases() { return nusselt::proof::tube_lights(); }
 
+/// Spheres, disks and ellipses are made from these as hostile::RoundKind does.
+struct RoundCase {
+    std::string name;
+    nusselt::Ellipsoid<double> ellipsoid;
+};
+
+inline std::vector<RoundCase> round_cases() {
+    return {
+        {"above", {{0.25, -0.5, 2}, {{0.75, 0.25, 0}, {-0.25, 0.5, 0.25}, {0.125, -0.125, 0.75}}}},
+        {"around the zenith", {{0, 0, 1}, {{0.5, 0, 0}, {0, 0.75, 0}, {0, 0, 0.25}}}},
+        {"through the floor",
+         {{1.5, 0.5, 0.125}, {{0, 0.5, 0.25}, {-0.25, 0.25, 0.75}, {0.5, 0.25, -0.125}}}},
+        {"touches the floor", {{1, 1, 0.5}, {{0, 0, 0.5}, {0.5, -0.5, 0}, {0.25, 0.25, 0}}}},
+        {"short",
+         {{1, 0.5, 2}, {{0.0078125, 0, 0.00390625}, {0, 0.0078125, 0}, {-0.00390625, 0, 0.0078125}}}},
+        {"large and close", {{1, 0.5, 0.75}, {{6, 0, 0.25}, {0, 5, 0}, {-0.015625, 0, 0.5}}}},
+        {"elongated", {{0.5, 1, 1}, {{0.75, 0.25, 0.25}, {-0.0625, 0.125, 0.0625}, {0, -0.0625, 0.125}}}},
+    };
+}
+
 struct LobeCase {
     std::string name;
     nusselt::LtcCoefficients<double> coefficients;
@@ -136,6 +156,8 @@ template <class Kind>
 auto geometry_cases() {
     if constexpr (kIsCylinder<Kind>) {
         return cylinder_cases();
+    } else if constexpr (kIsRound<Kind>) {
+        return round_cases();
     } else if constexpr (!kIsPolygon<Kind>) {
         return line_cases();
     } else if constexpr (Kind::kVertices == 4) {
@@ -177,6 +199,13 @@ nusselt::Cylinder<T> make_light(const CylinderCase& cylinder) {
             static_cast<T>(cylinder.radius)};
 }
 
+template <class T>
+nusselt::Ellipsoid<T> make_light(const RoundCase& light) {
+    const auto v = [](const nusselt::Vec3<double>& a) { return nusselt::broadcast<T>(a); };
+    const auto& [center, axis] = light.ellipsoid;
+    return {v(center), {v(axis[0]), v(axis[1]), v(axis[2])}};
+}
+
 template <class To, class From>
 nusselt::LtcCoefficients<To> rounded(const nusselt::LtcCoefficients<From>& lobe) {
     const auto entry = [](From x) { return static_cast<To>(x); };
@@ -190,11 +219,11 @@ typename Kind::template Light<T> light_for(const Case& light) {
     if constexpr (kHasLobe<Kind> && kIsPolygon<Kind>) {
         return {make_light<T, Kind::kVertices>(light), rounded<T>(light.lobe)};
     } else if constexpr (kHasLobe<Kind>) {
-        return {make_light<T>(light), rounded<T>(light.lobe)};
+        return {Kind::from(make_light<T>(light)), rounded<T>(light.lobe)};
     } else if constexpr (kIsPolygon<Kind>) {
         return Kind::from(make_light<T, Kind::kVertices>(light));
     } else {
-        return make_light<T>(light);
+        return Kind::from(make_light<T>(light));
     }
 }
 
