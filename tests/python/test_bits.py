@@ -43,6 +43,14 @@ def prepared(name, lights):
         parts = [numbers[:, :3], numbers[:, 3:6]]
     elif name.startswith("Cylinder"):
         parts = [numbers[:, :3], numbers[:, 3:6], numbers[:, 6]]
+    elif name.startswith("Sphere"):
+        parts = [numbers[:, :3], numbers[:, 3]]
+    elif name.startswith("Disk"):
+        parts = [numbers[:, :3], numbers[:, 3:6], numbers[:, 6]]
+    elif name.startswith("Ellipsoid"):
+        parts = [numbers[:, :3], numbers[:, 3:].reshape(-1, 3, 3)]
+    elif name.startswith("Ellipse"):
+        parts = [numbers[:, :3], numbers[:, 3:6], numbers[:, 6:9]]
     else:
         parts = [numbers.reshape(len(numbers), -1, 3)]
     return getattr(nusselt, name)(*parts, *lobe)
