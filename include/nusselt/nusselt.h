@@ -7,6 +7,7 @@
 #include <nusselt/bsdf/ggx_visible_normals.h>
 #include <nusselt/bsdf/lambert.h>
 #include <nusselt/bsdf/phong.h>
+#include <nusselt/cones/cone_shading.h>
 #include <nusselt/emission/environment_map_words.h>
 #include <nusselt/emission/latitude_longitude.h>
 #include <nusselt/emission/profile_radiance.h>

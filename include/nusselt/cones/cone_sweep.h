@@ -46,7 +46,8 @@ public:
         rim_ = Distribution(value);
         const Real measure = rim_.integral() * map_.scale();
         const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
-        const auto positive = measure > Real(0);
+        // Fractions of the measure must not be denormal: processors may flush them to zero.
+        const auto positive = measure > Real(4 * std::numeric_limits<scalar_t<Real>>::min());
         const auto fits = is_finite(inverse);
         const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
         measure_ = select(lit, measure, Real(0));

@@ -43,7 +43,9 @@ public:
         odd_ = {e1_.z * alpha_ * inverse, e2_.z * beta_ * inverse};
         const Real measure = Real(kPi<Scalar>) * (alpha_ * beta_) * e3_.z;
         const Real inverse_measure = Real(1) / select(measure > Real(0), measure, Real(1));
-        const auto lit = rises & cone.is_visible & (measure > Real(0)) & is_finite(inverse_measure);
+        // Fractions of the measure must not be denormal: processors may flush them to zero.
+        constexpr Scalar kLeast = 4 * std::numeric_limits<Scalar>::min();
+        const auto lit = rises & cone.is_visible & (measure > Real(kLeast)) & is_finite(inverse_measure);
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse_measure, Real(0));
     }
@@ -62,8 +64,7 @@ public:
         const Real goal = min(abs(kappa), multiply_add(zeta, ray.ratio, Real(1)));
         const Real radius = solve(ray, zeta, goal);
         const Real r = select(kappa < Real(0), -radius, radius);
-        const Real y = ray.extent * radius;
-        const Real z = sqrt(max((Real(1) - y) * (Real(1) + y), Real(0)));
+        const Real z = complement_of(ray, radius);
         const Vec3<Real> wi = (r * alpha_ * turn.cos) * e1_ + (r * beta_ * turn.sin) * e2_ + z * e3_;
         const Real inverse = detail::over_positive(r, z);
         return {wi, {disk_per_radius_.x * turn.cos * inverse, disk_per_radius_.y * turn.sin * inverse}};
@@ -93,6 +94,7 @@ public:
 private:
     struct Ray {
         Real extent; ///< m, the largest sine of the angle from the axis
+        Real rim;    ///< the least cosine of it
         Real eta;    ///< weight of the odd term
         Real ratio;  ///< Phi(m)
     };
@@ -106,20 +108,24 @@ private:
         return Real(0.5) * ratio.value / (cosine * cosine * cosine);
     }
 
-    NUSSELT_HD static Real complement_of(const Real& y) noexcept {
-        return sqrt(max((Real(1) - y) * (Real(1) + y), Real(0)));
+    /// The cosine of the angle from the axis at a radius in [0, 1], accurate relative to itself for wide cones, too.
+    NUSSELT_HD static Real complement_of(const Ray& ray, const Real& r) noexcept {
+        const Real at_rim = ray.rim * r;
+        return sqrt(multiply_add(at_rim, at_rim, (Real(1) - r) * (Real(1) + r)));
     }
 
     NUSSELT_HD Ray ray_at(const Vec2<Real>& direction) const noexcept {
         const Real x = alpha_ * direction.x, y = beta_ * direction.y;
         const Real extent = min(detail::hypotenuse(x, y), Real(1));
-        return {extent, multiply_add(odd_.x, direction.x, odd_.y * direction.y),
-                segment_ratio(extent, complement_of(extent))};
+        const Real u = disk_per_radius_.x * direction.x, v = disk_per_radius_.y * direction.y;
+        const Real rim = sqrt(multiply_add(u, u, v * v));
+        return {extent, rim, multiply_add(odd_.x, direction.x, odd_.y * direction.y),
+                segment_ratio(extent, rim)};
     }
 
     NUSSELT_HD static Real value(const Ray& ray, const Real& zeta, const Real& r) noexcept {
         const Real y = min(ray.extent * r, Real(1));
-        return r * r * multiply_add(zeta * r, segment_ratio(y, complement_of(y)), Real(1));
+        return r * r * multiply_add(zeta * r, segment_ratio(y, complement_of(ray, r)), Real(1));
     }
 
     /// The radius in [0, 1] for which value() is the goal.
@@ -132,8 +138,7 @@ private:
         Real r = min(sqrt(goal / blend), Real(1));
         NUSSELT_UNROLL
         for (int i = 0; i < Steps; ++i) {
-            const Real y = min(ray.extent * r, Real(1));
-            const Real w = max(complement_of(y), Real(power_of_two<Scalar>(-30)));
+            const Real w = max(complement_of(ray, r), Real(power_of_two<Scalar>(-30)));
             const Real inverse = Real(1) / w;
             const Real f = value(ray, zeta, r) - goal;
             const Real slope = Real(2) * r * max(multiply_add(zeta * r, inverse, Real(1)), Real(0));

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_SWEEP_GLSL
 #define NUSSELT_CONES_CONE_SWEEP_GLSL
-// Follows include/nusselt/cones/cone_sweep.h @ c2918360acad
+// Follows include/nusselt/cones/cone_sweep.h @ 5f7a26683161
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, in proportion to the cosine at the surface.
 /// Twin of include/nusselt/cones/cone_sweep.h, where the method is described.
 
@@ -32,7 +32,8 @@ ConeSweep make_cone_sweep(const EllipticCone cone) {
     self.rim = make_rim_distribution(value);
     float measure = rim_distribution_integral(self.rim) * rim_map_scale(self.map);
     float inverse = 1.0 / (measure > 0.0 ? measure : 1.0);
-    bool lit = self.map.is_cut && cone.is_visible && measure > 0.0 && is_finite(inverse);
+    // Fractions of the measure must not be denormal: devices may flush them to zero.
+    bool lit = self.map.is_cut && cone.is_visible && measure > 4.0 * kNusseltSmallestNormal && is_finite(inverse);
     self.measure = lit ? measure : 0.0;
     self.inverse_measure = lit ? inverse : 0.0;
     return self;

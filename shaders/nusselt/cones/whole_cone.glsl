@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ e6819cded43f
+// Follows include/nusselt/cones/whole_cone.h @ df1d79ba23be
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
@@ -36,7 +36,8 @@ WholeCone make_whole_cone(const EllipticCone cone) {
     self.odd = vec2(cone.e1.z * self.alpha * inverse, cone.e2.z * self.beta * inverse);
     float measure = kNusseltPi * (self.alpha * self.beta) * cone.e3.z;
     float inverse_measure = 1.0 / (measure > 0.0 ? measure : 1.0);
-    bool lit = rises && cone.is_visible && measure > 0.0 && is_finite(inverse_measure);
+    // Fractions of the measure must not be denormal: devices may flush them to zero.
+    bool lit = rises && cone.is_visible && measure > 4.0 * kNusseltSmallestNormal && is_finite(inverse_measure);
     self.measure = lit ? measure : 0.0;
     self.inverse_measure = lit ? inverse_measure : 0.0;
     return self;
@@ -44,11 +45,16 @@ WholeCone make_whole_cone(const EllipticCone cone) {
 
 struct WholeConeRay {
     float extent; ///< m, the largest sine of the angle from the axis
+    float rim;    ///< the least cosine of it
     float eta;    ///< weight of the odd term
     float ratio;  ///< Phi(m)
 };
 
-float complement_of(float y) { return sqrt(nusselt_max((1.0 - y) * (1.0 + y), 0.0)); }
+/// The cosine of the angle from the axis at a radius in [0, 1], accurate relative to itself for wide cones, too.
+float whole_cone_complement(const WholeConeRay ray, float r) {
+    float at_rim = ray.rim * r;
+    return sqrt(nusselt_fma(at_rim, at_rim, (1.0 - r) * (1.0 + r)));
+}
 
 /// (asin(y) - y sqrt(1 - y^2)) / y^3 for y in [0, 1].
 float segment_ratio(float y, float complement) {
@@ -58,13 +64,15 @@ float segment_ratio(float y, float complement) {
 
 WholeConeRay whole_cone_ray(const WholeCone self, vec2 direction) {
     float extent = nusselt_min(hypotenuse(self.alpha * direction.x, self.beta * direction.y), 1.0);
-    return WholeConeRay(extent, nusselt_fma(self.odd.x, direction.x, self.odd.y * direction.y),
-                        segment_ratio(extent, complement_of(extent)));
+    vec2 towards = self.disk_per_radius * direction;
+    float rim = sqrt(dot(towards, towards));
+    return WholeConeRay(extent, rim, nusselt_fma(self.odd.x, direction.x, self.odd.y * direction.y),
+                        segment_ratio(extent, rim));
 }
 
 float whole_cone_value(const WholeConeRay ray, float zeta, float r) {
     float y = nusselt_min(ray.extent * r, 1.0);
-    return r * r * nusselt_fma(zeta * r, segment_ratio(y, complement_of(y)), 1.0);
+    return r * r * nusselt_fma(zeta * r, segment_ratio(y, whole_cone_complement(ray, r)), 1.0);
 }
 
 /// The radius in [0, 1] for which whole_cone_value() is the goal.
@@ -74,8 +82,7 @@ float whole_cone_solve(const WholeConeRay ray, float zeta, float goal) {
     float guess = nusselt_min(sqrt(goal / nusselt_max(1.0 + z, kNusseltEpsilon)), 1.0);
     float r = nusselt_min(sqrt(goal / nusselt_max(nusselt_fma(z, guess, 1.0), kNusseltEpsilon)), 1.0);
     for (int i = 0; i < 2; ++i) {
-        float y = nusselt_min(ray.extent * r, 1.0);
-        float w = nusselt_max(complement_of(y), 9.31322574615478515625e-10);
+        float w = nusselt_max(whole_cone_complement(ray, r), 9.31322574615478515625e-10);
         float inverse = 1.0 / w;
         float f = whole_cone_value(ray, zeta, r) - goal;
         float slope = 2.0 * r * nusselt_max(nusselt_fma(zeta * r, inverse, 1.0), 0.0);
@@ -96,7 +103,7 @@ ConeSample whole_cone_sample(const WholeCone self, vec2 u) {
     float goal = nusselt_min(abs(kappa), nusselt_fma(zeta, ray.ratio, 1.0));
     float radius = whole_cone_solve(ray, zeta, goal);
     float r = kappa < 0.0 ? -radius : radius;
-    float z = complement_of(ray.extent * radius);
+    float z = whole_cone_complement(ray, radius);
     vec3 wi = (r * self.alpha * turn.cosine) * self.e1 + (r * self.beta * turn.sine) * self.e2 + z * self.e3;
     float inverse = over_positive(r, z);
     return ConeSample(wi, self.disk_per_radius * vec2(turn.cosine * inverse, turn.sine * inverse));
