@@ -16,7 +16,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
 ///               of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
-/// \tparam Steps of the iteration for images above the horizon of cosine space.
+/// \tparam Steps  of the iteration for images above the horizon of cosine space.
+/// \tparam Places of the rim where the horizon cuts it: 16, or 64 to take as many where 16 do not suffice.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is constant as for
 /// ConeProjectedSolidAngle. density(wi) / pdf is unbiased.
@@ -24,7 +25,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Edge cases: nothing of the light in the lobe, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From
 /// inside a sphere or an ellipsoid, the whole lobe leads to its surface.
 /// Samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
-template <class Real, template <class> class Light, int Steps = kConeSteps<Real>>
+template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>
 class ConeLtc {
     using Scalar = scalar_t<Real>;
 
@@ -37,7 +38,7 @@ public:
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
     template <class Single>
-    NUSSELT_HD explicit ConeLtc(const ConeLtc<Single, Light, Steps>& single) noexcept {
+    NUSSELT_HD explicit ConeLtc(const ConeLtc<Single, Light, Steps, Places>& single) noexcept {
         broadcast_members<Real>(*this, single);
     }
 
@@ -71,7 +72,7 @@ public:
 private:
     Ltc<Real> ltc_;
     LightView<Light<Real>> view_; ///< its cone is in cosine space
-    CosineCone<Real, Steps> image_;
+    CosineCone<Real, Steps, Places> image_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

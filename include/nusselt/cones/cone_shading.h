@@ -16,7 +16,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Integral of the clamped cosine over an elliptic cone [sr].
 template <class Real>
 NUSSELT_HD inline Real projected_solid_angle(const EllipticCone<Real>& cone) noexcept {
-    return CosineCone<Real, 0>(cone).measure();
+    return CosineCone<Real, 0, kConePlaces>(cone).measure();
 }
 
 /// Integral of the Lambertian lobe over the part of a light above the surface, in [0, 1].

@@ -7,11 +7,12 @@
 ///
 ///     measure = E(gamma) (n . R) (p . R x dR),  E = (2 gamma - sin(2 gamma)) / (4 sin^3(gamma)).
 ///
-/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Three maps
+/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Two maps
 /// of the rim keep it smooth for large ones: the tangents of angles around the axis are scaled by (b1 / a1)^(3/4), half-way
 /// between the disk of the cone and the ellipse that is its projection along the axis, and those of half-angles from the highest
 /// point by 1 / cos(gamma / 2) there, because rays that almost reach the antipode of the pole turn quickly. 16 places of the
-/// result give its distribution with a backward error of 1e-5 at most for ordinary lights (docs/techniques/elliptic_cone.md).
+/// result give its distribution up to rounding for ordinary lights, 64 for nearly all that are close to the point or much longer
+/// than wide (docs/techniques/elliptic_cone.md).
 
 #include <nusselt/cones/rim_distribution.h>
 #include <nusselt/cones/rim_map.h>
@@ -31,19 +32,15 @@ struct ConeSample {
 /// \tparam Real float, double, long double or a pack.
 ///
 /// The horizon is z = 0. Valid for cones that the horizon cuts; others give a measure of 0 or any density.
-template <class Real>
+/// \tparam Places of the rim, 16, or 64 to take as many where 16 do not suffice.
+template <class Real, int Places = 16>
 class ConeSweep {
-    using Distribution = RimDistribution<Real>;
-    static constexpr int kNodes = Distribution::kNodes;
-
 public:
     ConeSweep() = default;
 
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
-        Real value[kNodes];
-        densities(value);
-        rim_ = Distribution(value);
+        rim_ = RimDistribution<Real, Places>(Densities{map_});
         const Real measure = rim_.integral() * map_.scale();
         const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
         // Fractions of the measure must not be denormal: processors may flush them to zero.
@@ -55,7 +52,7 @@ public:
     }
 
     template <class Single>
-    NUSSELT_HD explicit ConeSweep(const ConeSweep<Single>& single) noexcept {
+    NUSSELT_HD explicit ConeSweep(const ConeSweep<Single, Places>& single) noexcept {
         broadcast_members<Real>(*this, single);
     }
 
@@ -107,25 +104,29 @@ public:
 
 private:
     /// The densities at all nodes. Scalar code takes the nodes as lanes, which have the bits of scalars.
-    NUSSELT_HD void densities(Real (&value)[kNodes]) const noexcept {
+    struct Densities {
+        const RimMap<Real>& map;
+
+        template <class Nodes>
+        NUSSELT_HD void operator()(Real (&value)[Nodes::kNodes]) const noexcept {
 #if NUSSELT_HAS_VERTEX_LANES
-        if constexpr (std::is_same_v<Real, float>) {
-            constexpr int kLanes = 8;
-            using Lanes = Pack<float, kLanes>;
-            const RimMap<Lanes> map(map_);
-            float node[kNodes];
-            for (int i = 0; i < kNodes; ++i) node[i] = Distribution::node(i);
-            NUSSELT_UNROLL
-            for (int i = 0; i < kNodes; i += kLanes)
-                map.density(map.turned(Lanes::load(node + i))).store(value + i);
-            return;
-        }
+            if constexpr (std::is_same_v<Real, float>) {
+                constexpr int kLanes = 8;
+                using Lanes = Pack<float, kLanes>;
+                const RimMap<Lanes> lanes(map);
+                float node[Nodes::kNodes];
+                for (int i = 0; i < Nodes::kNodes; ++i) node[i] = Nodes::node(i);
+                for (int i = 0; i < Nodes::kNodes; i += kLanes)
+                    lanes.density(lanes.turned(Lanes::load(node + i))).store(value + i);
+                return;
+            }
 #endif
-        for (int i = 0; i < kNodes; ++i) value[i] = map_.density(map_.turned(Real(Distribution::node(i))));
-    }
+            for (int i = 0; i < Nodes::kNodes; ++i) value[i] = map.density(map.turned(Real(Nodes::node(i))));
+        }
+    };
 
     RimMap<Real> map_;
-    Distribution rim_;
+    RimDistribution<Real, Places> rim_;
     Real measure_, inverse_measure_;
 
     friend struct detail::Members;

@@ -7,7 +7,9 @@
 NUSSELT_NAMESPACE_BEGIN
 
 /// The part of an elliptic cone above the horizon, whether or not the horizon cuts it.
-template <class Real, int Steps>
+/// \tparam Steps  of the iteration for cones above the horizon.
+/// \tparam Places of the rim of a cone that the horizon cuts, 16 or 64 (cone_sweep.h).
+template <class Real, int Steps, int Places>
 class CosineCone {
 public:
     CosineCone() = default;
@@ -15,11 +17,11 @@ public:
     NUSSELT_HD explicit CosineCone(const EllipticCone<Real>& cone) noexcept
         : is_whole_(is_above_horizon(cone)), whole_(cone), sweep_() {
         // The sweep is costly to prepare, and seldom needed.
-        if (any(!is_whole_)) sweep_ = ConeSweep<Real>(cone);
+        if (any(!is_whole_)) sweep_ = ConeSweep<Real, Places>(cone);
     }
 
     template <class Single>
-    NUSSELT_HD explicit CosineCone(const CosineCone<Single, Steps>& single) noexcept {
+    NUSSELT_HD explicit CosineCone(const CosineCone<Single, Steps, Places>& single) noexcept {
         broadcast_members<Real>(*this, single);
     }
 
@@ -47,7 +49,7 @@ public:
 private:
     mask_t<Real> is_whole_;
     WholeCone<Real, Steps> whole_;
-    ConeSweep<Real> sweep_; ///< only where the horizon cuts a cone in any lane
+    ConeSweep<Real, Places> sweep_; ///< only where the horizon cuts a cone in any lane
 
     friend struct detail::Members;
     template <class Self, class Visit>
@@ -59,5 +61,8 @@ private:
 /// Steps that make the backward error one of rounding.
 template <class Real>
 inline constexpr int kConeSteps = kIsSingle<Real> ? 2 : 3;
+
+/// Places of the rim that suffice for ordinary lights.
+inline constexpr int kConePlaces = 16;
 
 NUSSELT_NAMESPACE_END

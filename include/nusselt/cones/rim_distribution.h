@@ -1,108 +1,77 @@
 #pragma once
-/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function, known at 16 places.
+/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function.
 ///
-/// The density is (1 - z^2) times a polynomial of degree 15 in the basis of Gegenbauer's polynomials C_k of parameter 3/2,
-/// whose integrals against the weight 1 - z^2 are those of parameter 5/2, times (1 - z^2)^2: nothing cancels at the ends.
-/// The places are the nodes of Gauss's quadrature with this weight. Where the last coefficients tell that the polynomial is not
-/// to be trusted, the density is piecewise linear instead.
+/// 16 places of the density give a polynomial (rim_polynomial.h). Where its last coefficients tell that it is not accurate,
+/// 64 places take over if the caller asks for them; where those do not suffice either, the density is linear between the first 16
+/// places.
 
-#include <nusselt/core/broadcast.h>
+#include <nusselt/cones/rim_polynomial.h>
+#include <nusselt/core/trig.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// Nodes, and the matrix from values of the density at the nodes to coefficients.
-struct GegenbauerNodes {
-    static constexpr int kCount = 16;
-
-    /// Nodes in increasing order: the zeros of the derivative of Legendre's polynomial of degree 17.
-    static constexpr double node(int i) noexcept {
-        constexpr double kPositive[] = {
-            0.08974909348465211102, 0.26636265287828098416, 0.43441503691212397534, 0.58850483431866176117,
-            0.72367932928324268130, 0.83559353521809021371, 0.92064918534753387383, 0.97610555741219854286};
-        return i < kCount / 2 ? -kPositive[kCount / 2 - 1 - i] : kPositive[i - kCount / 2];
-    }
-    /// Weights of Lobatto's quadrature with 18 nodes: those of the weight 1 - z^2 over 1 - z^2.
-    static constexpr double weight(int i) noexcept {
-        constexpr double kPositive[] = {
-            0.17901586343970308229, 0.17326210948945622601, 0.16193951723760248926, 0.14541196157380226798,
-            0.12421053313296710026, 0.09901627171750280239, 0.07063716688563366499, 0.03997062881091406613};
-        return kPositive[i < kCount / 2 ? kCount / 2 - 1 - i : i - kCount / 2];
-    }
-};
-
-/// Row k gives the coefficient of C_k from sums (k even) or differences (k odd) of the values at opposite nodes.
-template <class Scalar>
-struct GegenbauerMatrix {
-    static constexpr int kHalf = GegenbauerNodes::kCount / 2;
-    Scalar entry[GegenbauerNodes::kCount][kHalf];
-
-    constexpr GegenbauerMatrix() noexcept : entry() {
-        for (int i = 0; i < kHalf; ++i) {
-            const double x = GegenbauerNodes::node(kHalf + i);
-            double before = 0, current = 1;
-            for (int k = 0; k < GegenbauerNodes::kCount; ++k) {
-                const double norm = 2.0 * (k + 1) * (k + 2) / (2 * k + 3);
-                entry[k][i] = static_cast<Scalar>(GegenbauerNodes::weight(kHalf + i) * current / norm);
-                const double next = ((2 * k + 3) * x * current - (k + 2) * before) / (k + 1);
-                before = current;
-                current = next;
-            }
-        }
-    }
+/// Stands where a distribution has no second polynomial.
+template <class Real>
+struct NoPolynomial {
+    NoPolynomial() = default;
+    template <class Single>
+    NUSSELT_HD explicit NoPolynomial(const NoPolynomial<Single>&) noexcept {}
 };
 
 } // namespace detail
 
-/// \tparam Real float, double, long double or a pack.
-template <class Real>
+/// \tparam Real   float, double, long double or a pack.
+/// \tparam Places 16, or 64 to take as many where 16 do not suffice.
+template <class Real, int Places = 16>
 class RimDistribution {
     using Scalar = scalar_t<Real>;
+    using Coarse = RimPolynomial<Real, 16>;
+    static constexpr int kNodes = Coarse::kNodes;
+    static constexpr bool kRefines = Places > kNodes;
+    using Fine = std::conditional_t<kRefines, RimPolynomial<Real, Places>, detail::NoPolynomial<Real>>;
 
 public:
-    static constexpr int kNodes = detail::GegenbauerNodes::kCount;
-    static constexpr Scalar node(int i) noexcept {
-        return static_cast<Scalar>(detail::GegenbauerNodes::node(i));
-    }
-
     RimDistribution() = default;
 
-    /// \param value of the density at the nodes, not negative, not normalised, of order one or less.
-    NUSSELT_HD explicit RimDistribution(const Real (&value)[kNodes]) noexcept {
-        constexpr detail::GegenbauerMatrix<Scalar> kMatrix;
-        constexpr int kHalf = kNodes / 2;
-        for (int k = 0; k < kNodes; ++k) {
-            Real sum = Real(0);
-            NUSSELT_UNROLL
-            for (int i = 0; i < kHalf; ++i) {
-                const Real& right = value[kHalf + i];
-                const Real& left = value[kHalf - 1 - i];
-                sum = multiply_add(Real(kMatrix.entry[k][i]), k % 2 == 0 ? right + left : right - left, sum);
-            }
-            coefficient_[k] = sum;
-        }
-        below_[0] = Real((node(0) + 1) / 2) * value[0];
-        value_[0] = value[0];
-        for (int i = 1; i < kNodes; ++i) {
-            value_[i] = value[i];
-            below_[i] = below_[i - 1] + Real((node(i) - node(i - 1)) / 2) * (value[i - 1] + value[i]);
-        }
-        below_[kNodes] = below_[kNodes - 1] + Real((1 - node(kNodes - 1)) / 2) * value[kNodes - 1];
+    /// \param fill functor: fill.template operator()<Nodes>(value) writes the density at Nodes::node(i) to value[i]. It is not
+    /// negative, not normalised, of order one or less.
+    template <class Fill>
+    NUSSELT_HD explicit RimDistribution(const Fill& fill) noexcept : fine_() {
+        fill.template operator()<Coarse>(value_);
+        coarse_ = Coarse(value_);
+        below_[0] = Real((node(0) + 1) / 2) * value_[0];
+        for (int i = 1; i < kNodes; ++i)
+            below_[i] = below_[i - 1] + Real((node(i) - node(i - 1)) / 2) * (value_[i - 1] + value_[i]);
+        below_[kNodes] = below_[kNodes - 1] + Real((1 - node(kNodes - 1)) / 2) * value_[kNodes - 1];
 
-        const Real tail = abs(coefficient_[kNodes - 1]) + abs(coefficient_[kNodes - 2]);
-        is_polynomial_ = tail < Real(Scalar(kLargestTail)) * coefficient_[0];
-        is_exact_ = tail < Real(16 * std::numeric_limits<Scalar>::epsilon()) * coefficient_[0];
+        constexpr Scalar kRounding = 16 * std::numeric_limits<Scalar>::epsilon();
+        is_exact_ = coarse_.converges(kRounding);
+        is_close_ = coarse_.converges(Scalar(kPositive));
+        is_coarse_ = is_close_;
+        is_fine_ = mask_t<Real>(false);
+        if constexpr (kRefines) {
+            is_coarse_ = coarse_.converges(kIsSingle<Real> ? Scalar(kAccurate) : kRounding);
+            if (all(is_coarse_)) return;
+            Real finer[Places];
+            fill.template operator()<Fine>(finer);
+            fine_ = Fine(finer);
+            is_fine_ = mask_t<Real>(!is_coarse_ & fine_.converges(Scalar(kPositive)));
+            is_exact_ = is_exact_ | (is_fine_ & fine_.converges(kRounding));
+        }
     }
 
     template <class Single>
-    NUSSELT_HD explicit RimDistribution(const RimDistribution<Single>& single) noexcept {
+    NUSSELT_HD explicit RimDistribution(const RimDistribution<Single, Places>& single) noexcept {
         broadcast_members<Real>(*this, single);
     }
 
     /// The integral of the density.
     NUSSELT_HD Real integral() const noexcept {
-        return select(is_polynomial_, Real(Scalar(4) / 3) * coefficient_[0], below_[kNodes]);
+        Real rough = below_[kNodes];
+        if constexpr (kRefines) rough = select(is_fine_, fine_.integral(), rough);
+        return select(is_coarse_, coarse_.integral(), rough);
     }
 
     /// Whether the interpolant differs from the function by rounding only.
@@ -111,45 +80,55 @@ public:
     /// \param u in [0, 1)
     /// \return z with below(z) = u integral(), increasing with u.
     NUSSELT_HD Real invert(const Real& u) const noexcept {
-        Real z = invert_linear(u);
-        if (any(is_polynomial_)) {
-            // Where the interpolants are close enough for the polynomial to be used, two steps have errors below 1e-6.
-            constexpr int kSteps = kIsSingle<Real> ? 2 : 4;
-            const Real goal = u * integral();
-            Real refined = z;
+        const Real goal = u * integral();
+        const Real start = invert_linear(u);
+        Real z = start;
+        if (any(is_close_)) {
+            const Real coarse_goal = select(is_coarse_, goal, u * coarse_.integral());
+            Real refined = start;
             NUSSELT_UNROLL
-            for (int i = 0; i < kSteps; ++i) {
-                const Real slope = polynomial_value(refined);
-                const Real step =
-                    (polynomial_below(refined) - goal) / select(slope > Real(0), slope, Real(1));
-                refined = select(slope > Real(0), min(max(refined - step, Real(-1)), Real(1)), refined);
-            }
-            z = select(is_polynomial_, refined, z);
+            for (int i = 0; i < kSteps; ++i) refined = coarse_.refined(refined, coarse_goal);
+            z = select(is_close_, refined, z);
+        }
+        if constexpr (kRefines) {
+            if (!any(is_fine_)) return z;
+            Real refined = z;
+            const int steps = all(is_close_) ? kSteps : 2 * kSteps;
+            for (int i = 0; i < steps; ++i) refined = fine_.refined(refined, goal);
+            z = select(is_fine_, refined, z);
         }
         return z;
     }
 
     /// \param z in [-1, 1]
     NUSSELT_HD Real value(const Real& z) const noexcept {
-        if (all(is_polynomial_)) return polynomial_value(z);
+        if (all(is_coarse_)) return coarse_.value(z);
         const Segment s = segment([&](int i) { return z >= Real(node(i)); });
-        const Real linear = multiply_add((z - s.begin) / s.width, s.right - s.left, s.left);
-        return select(is_polynomial_, polynomial_value(z), linear);
+        Real rough = multiply_add((z - s.begin) / s.width, s.right - s.left, s.left);
+        if constexpr (kRefines) rough = select(is_fine_, fine_.value(z), rough);
+        return select(is_coarse_, coarse_.value(z), rough);
     }
 
     /// The integral from -1 to z in [-1, 1].
     NUSSELT_HD Real below(const Real& z) const noexcept {
-        if (all(is_polynomial_)) return polynomial_below(z);
+        if (all(is_coarse_)) return coarse_.below(z);
         const Segment s = segment([&](int i) { return z >= Real(node(i)); });
         const Real share = (z - s.begin) / s.width;
-        const Real linear =
+        Real rough =
             multiply_add(s.width * share, multiply_add(Real(0.5) * share, s.right - s.left, s.left), s.below);
-        return select(is_polynomial_, polynomial_below(z), linear);
+        if constexpr (kRefines) rough = select(is_fine_, fine_.below(z), rough);
+        return select(is_coarse_, coarse_.below(z), rough);
     }
 
 private:
+    /// The error of the integral up to any place is a twentieth of the last coefficients.
+    static constexpr double kAccurate = 1e-5;
     /// Polynomials whose last two coefficients exceed this fraction of the first one may be negative.
-    static constexpr double kLargestTail = 1e-3;
+    static constexpr double kPositive = 1e-3;
+    /// Steps of Newton's method from one interpolant to the next; twice as many from the linear one to that of 64 places.
+    static constexpr int kSteps = kIsSingle<Real> ? 2 : 4;
+
+    static constexpr Scalar node(int i) noexcept { return Coarse::node(i); }
 
     struct Segment {
         Real begin, width, left, right, below;
@@ -182,44 +161,18 @@ private:
         return multiply_add(min(share, Real(1)), s.width, s.begin);
     }
 
-    /// Clenshaw's scheme for the polynomials of parameter 3/2.
-    NUSSELT_HD Real polynomial_value(const Real& z) const noexcept {
-        Real current = Real(0), next = Real(0);
-        NUSSELT_UNROLL
-        for (int k = kNodes - 1; k >= 0; --k) {
-            const Real lower = multiply_add(Real(Scalar(-(k + 3)) / Scalar(k + 2)), next, coefficient_[k]);
-            const Real sum = multiply_add(Real(Scalar(2 * k + 3) / Scalar(k + 1)) * z, current, lower);
-            next = current;
-            current = sum;
-        }
-        return max((Real(1) - z) * (Real(1) + z) * current, Real(0));
-    }
-
-    /// The integral of (1 - z^2) C_k is -3 / (k (k + 3)) (1 - z^2)^2 times the polynomial of parameter 5/2 and degree k - 1.
-    NUSSELT_HD Real polynomial_below(const Real& z) const noexcept {
-        Real current = Real(0), next = Real(0);
-        NUSSELT_UNROLL
-        for (int n = kNodes - 2; n >= 0; --n) {
-            const Real own = Real(Scalar(3) / Scalar((n + 1) * (n + 4))) * coefficient_[n + 1];
-            const Real lower = multiply_add(Real(Scalar(-(n + 5)) / Scalar(n + 2)), next, own);
-            const Real sum = multiply_add(Real(Scalar(2 * n + 5) / Scalar(n + 1)) * z, current, lower);
-            next = current;
-            current = sum;
-        }
-        const Real up = Real(1) + z;
-        const Real down = Real(1) - z;
-        return up * up * (coefficient_[0] * ((Real(2) - z) * Real(Scalar(1) / 3)) - down * down * current);
-    }
-
-    Real coefficient_[kNodes];
+    Coarse coarse_;
+    Fine fine_; ///< set only where the coarse one does not suffice in any lane
     Real value_[kNodes];
     Real below_[kNodes + 1]; ///< integrals of the linear interpolant up to the nodes, and to 1
-    mask_t<Real> is_polynomial_, is_exact_;
+    mask_t<Real> is_close_, is_coarse_, is_fine_,
+        is_exact_; ///< is_close_: whether the coarse polynomial is positive
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.coefficient_, self.value_, self.below_, self.is_polynomial_, self.is_exact_);
+        visit(self.coarse_, self.fine_, self.value_, self.below_, self.is_close_, self.is_coarse_,
+              self.is_fine_, self.is_exact_);
     }
 };
 

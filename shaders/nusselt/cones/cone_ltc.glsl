@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_LTC_GLSL
 #define NUSSELT_CONES_CONE_LTC_GLSL
-// Follows include/nusselt/cones/cone_ltc.h @ d9eee19266ba
+// Follows include/nusselt/cones/cone_ltc.h @ c3ebf9dea848
 /// Sampling of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()) in proportion to a linearly
 /// transformed cosine. Twin of include/nusselt/cones/cone_ltc.h, which has the measure and the edge cases.
 ///

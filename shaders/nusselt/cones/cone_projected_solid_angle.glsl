@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/cones/cone_projected_solid_angle.h @ 359cb967ef16
+// Follows include/nusselt/cones/cone_projected_solid_angle.h @ 6a9f447baf5c
 /// Sampling of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()) in proportion to the cosine
 /// at the surface. Twin of include/nusselt/cones/cone_projected_solid_angle.h, which has the measure and the edge
 /// cases.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_SHADING_GLSL
 #define NUSSELT_CONES_CONE_SHADING_GLSL
-// Follows include/nusselt/cones/cone_shading.h @ ac731b6ce9ea
+// Follows include/nusselt/cones/cone_shading.h @ f4dd3ef4235b
 /// Analytic, unshadowed shading with spheres, disks, ellipses and ellipsoids, with the horizon. Twin of
 /// include/nusselt/cones/cone_shading.h.
 ///

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_COSINE_CONE_GLSL
 #define NUSSELT_CONES_COSINE_CONE_GLSL
-// Follows include/nusselt/cones/cosine_cone.h @ 540fcea8304e
+// Follows include/nusselt/cones/cosine_cone.h @ a9a7cea59baa
 /// Sampling of the part of any elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/cosine_cone.h.
 

@@ -17,8 +17,9 @@ namespace nusselt_test {
 enum class Shape { disk, ellipse, sphere, ellipsoid };
 inline constexpr Shape kShapes[] = {Shape::disk, Shape::ellipse, Shape::sphere, Shape::ellipsoid};
 
-/// Where a light is, in shading space.
-enum class Place { ordinary, at_horizon, tiny, near, elongated, edge_on };
+/// Where a light is, in shading space. Touching ones are up to 20 large and as close as 1e-4 to the point, needles have axes of
+/// 1 : 50 to 1 : 100.
+enum class Place { ordinary, at_horizon, tiny, near, elongated, edge_on, touching, needle };
 inline constexpr Place kPlaces[] = {Place::ordinary, Place::at_horizon, Place::tiny,
                                     Place::near,     Place::elongated,  Place::edge_on};
 
@@ -104,15 +105,23 @@ private:
             r[0] = 1;
             r[1] = logarithmic(0.02, 0.1);
         }
+        if (place == Place::needle) {
+            r[0] = 1;
+            r[1] = logarithmic(0.01, 0.02);
+            r[2] = logarithmic(0.01, 1);
+            distance = uniform(0.02, 3);
+        }
+        if (place == Place::touching)
+            for (double& x : r) x = logarithmic(0.5, 20);
         for (int i = 0; i < 3; ++i) {
             double size = r[i];
             if (shape == Shape::sphere || (shape == Shape::disk && i == 1)) size = r[0];
             light.axis[i] = (place == Place::tiny ? size * kSize : size) * light.axis[i];
         }
-        if (place == Place::near) {
+        if (place == Place::near || place == Place::touching) {
             // Above a point of the inside of the disk, or outside the surface.
             const nusselt::Vec3<double> x = direction();
-            const double gap = logarithmic(1e-2, 0.3);
+            const double gap = logarithmic(place == Place::near ? 1e-2 : 1e-4, 0.3);
             const bool flat = shape == Shape::disk || shape == Shape::ellipse;
             light.center = flat ? 0.8 * (x.x * a + x.y * b) + (gap / length(c)) * c
                                 : (1 + gap) * (x.x * a + x.y * b + x.z * c);
