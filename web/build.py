@@ -19,12 +19,15 @@ SCENES = [row["file"] for row in json.loads((ROOT / "web/scenes.json").read_text
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
+def version():
+    return re.search(r"project\(nusselt VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
 def licence(maker):
     """The version and the licence as comments, as at the beginning of flattened shaders."""
-    version = re.search(r"project\(nusselt VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     lines = (ROOT / "LICENSE").read_text().strip().splitlines()
     text = "".join(f"// {line}".rstrip() + "\n" for line in lines)
-    return f"// Nusselt {version}, put together by {maker}.\n//\n{text}"
+    return f"// Nusselt {version()}, put together by {maker}.\n//\n{text}"
 
 
 def registry():

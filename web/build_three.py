@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Builds the module for three.js and its example. Needs esbuild, Node.js and npm, which fetches three.js at the first time.
+"""Builds the module for three.js and its example. Needs esbuild, tsc, Node.js and npm, which fetches three.js at the first time.
 
 Usage: web/build_three.py FOLDER
-  FOLDER/nusselt-three.js  the module, which imports three
-  FOLDER/index.html        the example in one file, which opens from disk
+  FOLDER/nusselt-three.js    the module, which imports three
+  FOLDER/nusselt-three.d.ts  its types
+  FOLDER/package.json        what makes the folder a package for npm
+  FOLDER/index.html          the example in one file, which opens from disk
 """
 import json
 import os
@@ -14,6 +16,7 @@ import subprocess
 import sys
 
 import build
+import three_types
 
 ROOT = build.ROOT
 THREE = ROOT / "web/three"
@@ -70,8 +73,19 @@ def page(script, data):
 
 
 def make_module(folder):
-    module = esbuild(THREE / "index.ts", "--format=esm", "--external:three")
-    (folder / "nusselt-three.js").write_text(build.licence("web/build_three.py") + module)
+    folder.mkdir(parents=True, exist_ok=True)
+    licence = build.licence("web/build_three.py")
+    (folder / "nusselt-three.js").write_text(licence + esbuild(THREE / "index.ts", "--format=esm", "--external:three"))
+    (folder / "nusselt-three.d.ts").write_text(licence + three_types.make_types())
+    tested = json.loads((THREE / "package.json").read_text())["devDependencies"]["three"]
+    package = {
+        "name": "nusselt-three", "version": build.version(), "description": "Area lights with shadows for three.js", "license": "MIT",
+        "type": "module", "sideEffects": False, "types": "./nusselt-three.d.ts",
+        "exports": {".": {"types": "./nusselt-three.d.ts", "default": "./nusselt-three.js"}},
+        "files": ["nusselt-three.js", "nusselt-three.d.ts"], "peerDependencies": {"three": f">={tested}"},
+    }
+    (folder / "package.json").write_text(json.dumps(package, indent=4) + "\n")
+    shutil.copy(ROOT / "LICENSE", folder)
 
 
 def make_example(folder):

@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import {
-    BoxGeometry, BufferGeometry, Float32BufferAttribute, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, PlaneGeometry,
-    RectAreaLight, Scene, SphereGeometry,
+    BoxGeometry, BufferAttribute, BufferGeometry, Float32BufferAttribute, InstancedMesh, InterleavedBuffer, InterleavedBufferAttribute,
+    Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry, RectAreaLight, Scene, SphereGeometry,
 } from "three";
 import { AreaLights, TubeLight } from "./nusselt-three.js";
 
@@ -47,17 +47,62 @@ plane.geometry.setDrawRange(3, 3);
 lights.update();
 assert.equal(lights.triangleCount, 13);
 plane.geometry.setDrawRange(0, Infinity);
-assert.equal(lights.update(), false, "no version number tells of draw ranges");
-lights.needsUpdate = true;
 assert.equal(lights.update(), true);
 assert.equal(lights.triangleCount, 14);
+assert.equal(lights.update(), false);
+lights.needsUpdate = true;
+assert.equal(lights.update(), true);
 
-// Triangles that are nowhere cast no shadow.
+// Triangles that are nowhere, or farther away than shaders can reach, cast no shadow.
 const broken = new BufferGeometry();
-broken.setAttribute("position", new Float32BufferAttribute([0, 0, 0, 1, 0, 0, NaN, 1, 0], 3));
-scene.add(caster(broken), caster(new BufferGeometry()));
+broken.setAttribute("position", new BufferAttribute(new Float32Array([0, 0, 0, 1, 0, 0, NaN, 1, 0, 0, 0, 0, 1, 0, 0, 3.4e38, 1, 0]), 3));
+const beyond = new BufferGeometry();
+beyond.setAttribute("position", new BufferAttribute(new Float64Array([0, 0, 0, 1, 0, 0, 1e39, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3.4e38, 0]), 3));
+scene.add(caster(broken), caster(beyond), caster(new BufferGeometry()));
 lights.update();
 assert.equal(lights.triangleCount, 14);
+assert.ok(lights.occluders.radius < 10);
+
+// Other buffers count, whether attributes share them or not, and so do other indices.
+const quads = [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1]; // six vertices
+const edited = new BufferGeometry();
+edited.setAttribute("position", new Float32BufferAttribute(quads, 3));
+scene.add(caster(edited));
+const changesOf = edit => {
+    edit();
+    const hasChanged = lights.update();
+    assert.equal(lights.update(), false);
+    return [hasChanged, lights.triangleCount - 14, lights.occluders.triangles.image.data.reduce((sum, x) => Math.max(sum, x))];
+};
+const interleaved = new InterleavedBuffer(new Float32Array([...quads.slice(0, 9), 0, 0, 5]), 3);
+const attribute = new InterleavedBufferAttribute(interleaved, 3, 0);
+for (const [edit, triangles, largest] of [
+    [() => {}, 2, 1.5],
+    [() => edited.setAttribute("position", new Float32BufferAttribute(quads.map(x => 3 * x), 3)), 2, 3],
+    [() => edited.setIndex([0, 1, 2]), 1, 3],
+    [() => edited.setIndex([3, 4, 5]), 1, 3],
+    [() => edited.setAttribute("position", attribute), 0, 1.5], // there is no vertex 4
+    [() => edited.setIndex([1, 2, 3]), 1, 5],
+    [() => { interleaved.array[11] = 7; interleaved.needsUpdate = true; }, 1, 7],
+    [() => { attribute.data = new InterleavedBuffer(new Float32Array(12).fill(8), 3); }, 1, 8],
+    [() => edited.setIndex(null), 1, 8],
+    [() => edited.deleteAttribute("position"), 0, 1.5],
+]) assert.deepEqual(changesOf(edit), [true, triangles, largest], edit.toString());
+
+// As for three.js, only layers count that the camera sees.
+const camera = new PerspectiveCamera();
+camera.layers.set(1);
+mesh.layers.enable(1);
+assert.equal(lights.update(camera), true);
+assert.equal(lights.triangleCount, 12);
+const seen = new RectAreaLight(0xffffff, 1, 1, 1);
+seen.layers.set(1);
+scene.add(seen);
+lights.update(camera);
+assert.equal(lights.uniforms.polygon_count.value, 1);
+assert.equal(lights.update(), true);
+assert.deepEqual([lights.triangleCount, lights.uniforms.polygon_count.value], [14, 0]);
+scene.remove(seen);
 
 // Lights cast no shadow themselves, and moving them builds nothing.
 const panel = new RectAreaLight(0xffffff, 2, 3, 1);
@@ -120,8 +165,10 @@ const countOf = () => {
     return flatLights.uniforms.polygon_count.value + flatLights.uniforms.line_count.value;
 };
 for (const [make, edits] of [
-    [() => new RectAreaLight(0xffffff, 1, 2, 1), [{ width: 0 }, { height: NaN }, { width: Infinity }, { intensity: NaN }]],
-    [() => new TubeLight(0xffffff, 1, 1, 0.1), [{ length: 0 }, { length: NaN }, { radius: -1 }, { radius: NaN }, { intensity: Infinity }]],
+    [() => new RectAreaLight(0xffffff, 1, 2, 1), [{ width: 0 }, { height: NaN }, { width: Infinity }, { intensity: NaN },
+        { width: 1e39 }, { intensity: 1e39 }, { width: 1e-200, height: 1e-200 }]],
+    [() => new TubeLight(0xffffff, 1, 1, 0.1), [{ length: 0 }, { length: NaN }, { radius: -1 }, { radius: NaN }, { radius: 1e39 },
+        { intensity: Infinity }]],
 ]) {
     const light = make();
     flat.add(light);
@@ -155,4 +202,9 @@ assert.deepEqual(lit.material.defines.NUSSELT_AREA_LIGHTS, undefined);
 new AreaLights(flat).add(flat);
 
 for (let i = 0; i < 4; ++i) scene.add(new RectAreaLight());
+mesh.position.x = 2;
 assert.throws(() => lights.update(), /5 polygonal lights are too many: at most 4/);
+// What moved in the meantime is not forgotten.
+scene.remove(...scene.children.filter(child => child instanceof RectAreaLight && child !== panel));
+assert.equal(lights.update(), true);
+assert.equal(lights.update(), false);

@@ -2,9 +2,11 @@
 """Tests of the module and the example for three.js, in Node.js and in a browser without a window.
 
 Usage: tests/three/three_test.py [NAME_OF_TEST...]
-Ends with 77 where chromium, chromium-driver, python3-selenium, esbuild, npm or the package three are missing; with CI=true in
-the environment, that is a failure.
+Ends with 77 where chromium, chromium-driver, python3-selenium, esbuild, tsc, npm or the package three are missing; with CI=true
+in the environment, that is a failure.
 """
+import functools
+import http.server
 import json
 import pathlib
 import re
@@ -12,6 +14,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -87,6 +91,21 @@ def simple_materials(text):
     return re.sub(r'"coateddiffuse"(?: "float roughness" [0-9.]+)?', '"diffuse"', edited)
 
 
+@functools.cache
+def made_module():
+    """The folder with the module, its types and what makes it a package."""
+    folder = pathlib.Path(tempfile.mkdtemp())
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    build_three.make_module(folder)
+    return folder
+
+
+def documented(language):
+    """The program or the page in docs/three.md."""
+    text, = re.findall(rf"^```{language}\n(.*?)^```", (ROOT / "docs/three.md").read_text(), flags=re.DOTALL | re.MULTILINE)
+    return text
+
+
 def mean(values):
     return sum(values) / len(values)
 
@@ -97,12 +116,17 @@ def error(image, expected, mask=None):
     return mean([((a - e) / (e + 0.01)) ** 2 for a, e in rows]) ** 0.5
 
 
+class QuietHandler(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
 class Module(unittest.TestCase):
     def test_in_node(self):
         """Lights and occluders without a device."""
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            build_three.make_module(folder)
+            shutil.copy(made_module() / "nusselt-three.js", folder)
             (folder / "node_modules").symlink_to(build_three.PACKAGES / "node_modules")
             test = shutil.copy(ROOT / "tests/three/module_test.mjs", folder)
             done = subprocess.run(["node", test], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -118,6 +142,37 @@ class Module(unittest.TestCase):
             self.assertNotIn("resolved", package, name)
             if name:
                 self.assertIn("integrity", package, name)
+
+
+    def test_types(self):
+        """A program in TypeScript compiles with the types, and each of its mistakes is found."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "node_modules").mkdir()
+            (folder / "node_modules/nusselt-three").symlink_to(made_module())
+            shutil.copy(ROOT / "tests/three/types_test.ts", folder)
+            done = subprocess.run(["tsc", "--strict", "--noEmit", "--target", "es2020", "--moduleResolution", "node",
+                                   folder / "types_test.ts", build_three.THREE / "three.d.ts"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertEqual((0, ""), (done.returncode, done.stdout))
+        text = (made_module() / "nusselt-three.d.ts").read_text()
+        self.assertNotIn("private", text)
+        self.assertIn("* @param radius    > 0.", text)
+
+    def test_example_of_the_documentation_in_a_bundle(self):
+        """The package as npm packs it."""
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            packed = subprocess.run(["npm", "pack", made_module(), "--silent"], cwd=folder, check=True, stdout=subprocess.PIPE, text=True)
+            package = folder / "node_modules/nusselt-three"
+            package.mkdir(parents=True)
+            subprocess.run(["tar", "-xf", folder / packed.stdout.strip(), "-C", package, "--strip-components=1"], check=True)
+            self.assertEqual({"LICENSE", "nusselt-three.d.ts", "nusselt-three.js", "package.json"}, {file.name for file in package.iterdir()})
+            (folder / "node_modules/three").symlink_to(build_three.PACKAGES / "node_modules/three")
+            (folder / "main.js").write_text(documented("js"))
+            subprocess.run(["esbuild", "main.js", "--bundle", "--outfile=bundle.js", "--log-level=warning"], cwd=folder, check=True)
+            bundle = (folder / "bundle.js").read_text()
+        self.assertEqual((1, 0), (bundle.count("AreaLights = class"), bundle.count('require("three")')))
 
 
 class Example(unittest.TestCase):
@@ -154,8 +209,11 @@ class Example(unittest.TestCase):
         self.assertEqual("ready", state, self.browser.find("#failure").text)
 
     def open_example(self, file):
+        """The picture alone."""
         self.browser.use_screen(WIDTH, HEIGHT, False)
         self.open(file)
+        self.browser.script("document.getElementById('controls').hidden = true")
+        self.wait(f"const {{ width, height }} = window.example.renderer.domElement; return width === {WIDTH} && height === {HEIGHT}")
 
     def wait(self, condition):
         return self.browser.wait(condition)
@@ -224,11 +282,12 @@ class Example(unittest.TestCase):
             return [camera, ...lamps].map(({ position }) => position.toArray());""")
 
     def test_controls_change_the_picture(self):
-        self.open_example(self.plain)
         browser = self.browser
         # Few pixels on a large screen, which has room for the controls.
-        browser.script("Object.assign(window.example, { mostFrames: 2, mostPixels: 64 * 36 })")
         browser.use_screen(800, 450, False)
+        self.open(self.plain)
+        browser.script("Object.assign(window.example, { mostFrames: 2, mostPixels: 64 * 36 })")
+        browser.use_screen(810, 450, False)
         shown, places = self.shown(), self.places()
 
         def drag(x, y):
@@ -258,6 +317,60 @@ class Example(unittest.TestCase):
             self.assertNotEqual(before, shown, name)
             places_before, places = places, self.places()
             self.assertEqual([i == moving for i in range(3)], [a != b for a, b in zip(places_before, places)], name)
+
+    def test_controls_leave_room_for_the_picture(self):
+        """On a desktop, and on phones in both orientations."""
+        self.open_example(self.plain)
+        self.browser.script("document.getElementById('controls').hidden = false; window.example.mostFrames = 0")
+        for width, height in ((1280, 720), (844, 390), (390, 844)):
+            with self.subTest(width=width, height=height):
+                self.browser.use_screen(width, height, False)
+                self.browser.settle()
+                x, y, w, h = self.browser.box(self.browser.find("#canvas"))
+                left, top, _, _ = self.browser.box(self.browser.find("#controls"))
+                self.assertTrue(x + w <= left or y + h <= top, "the controls cover the picture")
+                self.assertGreater(w * h, 0.5 * width * height)
+                for control in self.browser.find_all("#controls input"):
+                    cx, cy, cw, ch = self.browser.box(control)
+                    self.assertTrue(left <= cx and cx + cw <= width and top <= cy and cy + ch <= height)
+                self.assertEqual([width, height], self.browser.script(
+                    "const { scrollWidth, scrollHeight } = document.documentElement; return [scrollWidth, scrollHeight]"))
+
+    def test_pictures_without_pixels(self):
+        """Frames of a canvas that is hidden wait until it is shown."""
+        self.open_example(self.plain)
+        show = "document.getElementById('view').style.display = arguments[0]"
+        self.browser.script(show, "none")
+        self.wait("return window.example.renderer.domElement.width === 0")
+        self.browser.settle()
+        self.browser.script("window.example.frames.restart()")
+        self.browser.settle()
+        self.assertEqual(0, self.browser.script("return window.example.frames.count"))
+        self.browser.script(show, "")
+        self.wait("return window.example.frames.count > 1")
+        self.assertEqual("ready", self.browser.script("return document.documentElement.dataset.state"))
+
+    def test_example_of_the_documentation_by_an_import_map(self):
+        """From a server, as browsers load no modules from disk."""
+        folder = pathlib.Path(self.folder.name) / "served"
+        folder.mkdir()
+        shutil.copy(made_module() / "nusselt-three.js", folder)
+        (folder / "node_modules").symlink_to(build_three.PACKAGES / "node_modules")
+        (folder / "index.html").write_text(documented("html"))
+        (folder / "main.js").write_text(documented("js"))
+        handler = functools.partial(QuietHandler, directory=folder)
+        with http.server.ThreadingHTTPServer(("localhost", 0), handler) as server:
+            threading.Thread(target=server.serve_forever).start()
+            self.addCleanup(server.shutdown)
+            self.browser.use_screen(WIDTH, HEIGHT, False)
+            self.browser.driver.get(f"http://localhost:{server.server_port}/index.html")
+            left, right = (WIDTH // 5, 4 * HEIGHT // 5), (4 * WIDTH // 5, 4 * HEIGHT // 5)
+            while self.browser.screen_pixels([left]) in ([[0, 0, 0]], [[255, 255, 255]]):
+                time.sleep(0.1)
+            # The tube is on the left of the box, which shades the floor on its right.
+            lit, shaded = self.browser.screen_pixels([left, right])
+            server.shutdown()
+        self.assertGreater(min(lit), 2 * max(shaded))
 
     def test_programs_of_other_materials_compile(self):
         """Maps, layers, instances and colours of vertices lead to other programs. They are linked but draw nothing, which
@@ -289,7 +402,7 @@ class Example(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    for program in ("esbuild", "npm", "node"):
+    for program in ("esbuild", "tsc", "npm", "node"):
         if shutil.which(program) is None:
             unavailable(f"{program} is missing")
     try:

@@ -12,6 +12,9 @@ export const lightVertices = 4;
 export const mostLights = 4;
 /// Pixels in a row of a block over which errors are summed up.
 export const errorBlock = 16;
+/// Whether shaders can calculate with a length or a radiance: up to a quarter of the largest number of single precision, as
+/// differences of others may overflow.
+export const isInRange = (x: number): boolean => Math.abs(x) <= 8e37;
 /// Values of Material::model: two BRDFs; and tubes, which are visible, but reflect nothing and cast no shadow.
 export const models = { lambert: 0, frostbite: 1, noSurface: 2 } as const;
 

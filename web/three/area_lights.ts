@@ -1,10 +1,12 @@
 /// RectAreaLights and TubeLights of a three.js scene with shadows.
 
 import {
-    Constant, DataTexture, HalfFloatType, Mesh, MeshStandardMaterial, Object3D, RGBAFormat, RGFormat, RectAreaLight, Scene, Vector3,
+    Camera, Constant, DataTexture, HalfFloatType, Layers, Mesh, MeshStandardMaterial, Object3D, RGBAFormat, RGFormat, RectAreaLight, Scene,
+    Vector3,
 } from "three";
 import shaderPart from "generated/area_lights.glsl";
 import lobeBytes from "../../data/ltc-frostbite-engine.bin";
+import { isInRange } from "../library/layout";
 import { PolygonLight, TubularLight, Uniforms, lightVertices, mostLights, polygonUniforms, tubeUniforms } from "../library/light_uniforms";
 import { lobeTableSide, lobeTexels } from "../library/lobe_table";
 import { Occluders } from "./occluders";
@@ -34,14 +36,18 @@ function worldPolygon(light: RectAreaLight): PolygonLight {
     return { vertices: [corner(1, -1), corner(-1, -1), corner(-1, 1), corner(1, 1)], radiance };
 }
 
-const isFinite = (vectors: readonly (readonly number[])[]): boolean => vectors.flat().every(Number.isFinite);
+const areInRange = (uniforms: Uniforms): boolean => [...uniforms.values()].flat().every(isInRange);
 const differ = (a: readonly number[], b: readonly number[]): boolean => a.some((x, k) => x !== b[k]);
 
-/// Lights of no extent, such as those in groups of scale 0, and lights with numbers that are not finite do not shine.
-const panelShines = ({ vertices: [a, b, c], radiance }: PolygonLight): boolean =>
-    isFinite([a, b, c, radiance ?? []]) && differ(a, b) && differ(b, c);
-const tubeShines = ({ begin, end, radius, radiance }: TubularLight): boolean =>
-    isFinite([begin, end, radiance ?? []]) && radius > 0 && radius < Infinity && differ(begin, end);
+/// Lights of no extent, such as those in groups of scale 0, and lights with numbers that shaders cannot take do not shine.
+const panelShines = (panel: PolygonLight): boolean => {
+    const [a, b, c] = panel.vertices;
+    return differ(a, b) && differ(b, c) && areInRange(polygonUniforms([panel]));
+};
+const tubeShines = (tube: TubularLight): boolean =>
+    tube.radius > 0 && differ(tube.begin, tube.end) && areInRange(tubeUniforms("line", [tube], () => 0));
+
+const firstLayer = new Layers();
 
 /// Which lights a material has: its program has room for those of one object.
 const owners = new WeakMap<MeshStandardMaterial, AreaLights>();
@@ -78,7 +84,7 @@ function withoutOurs(material: MeshStandardMaterial): Record<string, string | nu
 export class AreaLights {
     /// Whether meshes with castShadow cast shadows on those with receiveShadow.
     shadows = true;
-    /// Set this after changes that no version number tells: of bones, morph targets, or draw ranges.
+    /// Set this after changes that no version number tells: of bones and morph targets.
     needsUpdate = false;
     /// Number of the next frame, which chooses its random numbers.
     frame = 0;
@@ -91,6 +97,8 @@ export class AreaLights {
     private hasTubes = false;
     private isActive = true;
     private lightState = "";
+    /// Whether something has changed since update() last returned.
+    private hasChanged = false;
 
     constructor(private readonly scene: Scene) {
         const [lobe_shapes, lobe_albedos] = lobeTextures();
@@ -162,11 +170,15 @@ export class AreaLights {
 
     /// Follows the scene; to be called before each frame. Meshes that cast shadows and have changed cost the time to build
     /// their hierarchy again; lights may always move.
+    /// \param camera of the frame. As for three.js, lights and meshes count that share a layer with it; without a camera, those
+    ///               in layer 0.
     /// \return whether something has changed, so that frames before cannot be added up with those that follow.
     /// \throws Error for more than four lights of a kind
-    update(): boolean {
+    update(camera?: Camera): boolean {
+        const layers = camera?.layers ?? firstLayer;
         this.scene.updateMatrixWorld();
-        const hasMoved = this.occluders.update(this.scene, this.needsUpdate);
+        // What has moved is still news after a call that throws.
+        if (this.occluders.update(this.scene, layers, this.needsUpdate)) this.hasChanged = true;
         this.needsUpdate = false;
         this.set("triangles", this.occluders.triangles);
         this.set("nodes", this.occluders.nodes);
@@ -177,16 +189,19 @@ export class AreaLights {
         // Sums of frames are best for samples without a gap; the number stays exact in a float.
         this.set("first_sample", this.frame * this.samples % 2 ** 20);
         ++this.frame;
-        const hasChanged = this.updateLights();
-        return hasMoved || hasChanged;
+        if (this.updateLights(layers)) this.hasChanged = true;
+        const { hasChanged } = this;
+        this.hasChanged = false;
+        return hasChanged;
     }
 
     private set(name: string, value: unknown): void { this.uniforms[name].value = value; }
 
-    private updateLights(): boolean {
+    private updateLights(layers: Layers): boolean {
         const panels: PolygonLight[] = [];
         const lines: TubularLight[] = [];
         this.scene.traverseVisible((object: Object3D) => {
+            if (!object.layers.test(layers)) return;
             if (object instanceof RectAreaLight) {
                 const panel = worldPolygon(object);
                 if (panelShines(panel)) panels.push(panel);

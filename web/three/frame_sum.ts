@@ -69,15 +69,16 @@ export class FrameSum {
     private viewOf(camera: AnyCamera): string {
         camera.updateMatrixWorld();
         const { x, y } = this.renderer.getDrawingBufferSize(new Vector2());
-        return [x, y, ...camera.matrixWorld.elements, ...camera.projectionMatrix.elements].join();
+        return [x, y, camera.layers.mask, ...camera.matrixWorld.elements, ...camera.projectionMatrix.elements].join();
     }
 
-    /// Adds a frame.
+    /// Adds a frame. Does nothing while the canvas has no pixels.
     /// \param camera its view offset is cleared.
     render(scene: Scene, camera: AnyCamera): void {
         const { renderer, frame, sums } = this;
         const old = renderer.getRenderTarget();
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
+        if (width === 0 || height === 0) return;
         for (const target of [frame, ...sums]) target.setSize(width, height);
         if (this.isOutdated(camera)) this.restart();
         this.view = this.viewOf(camera);

@@ -1,21 +1,27 @@
 /// The triangles that cast shadows, in textures in the layout of web/shaders/triangles.glsl and shadows.glsl.
 
-import { BufferAttribute, DataTexture, FloatType, InstancedMesh, Matrix4, Mesh, Object3D, RGBAFormat, Scene, Vector3 } from "three";
+import {
+    BufferAttribute, DataTexture, FloatType, InstancedMesh, InterleavedBufferAttribute, Layers, Matrix4, Mesh, Object3D, RGBAFormat, Scene,
+    Vector3,
+} from "three";
 import { makeHierarchy } from "../library/hierarchy";
+import { isInRange } from "../library/layout";
 import { rowLength } from "../library/webgl";
 import { TubeLight } from "./tube_light";
 
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+
 interface Caster {
     readonly mesh: Mesh;
-    readonly position: BufferAttribute;
+    readonly position: Attribute;
     /// The same mesh, if it has instances.
     readonly instances: InstancedMesh | null;
 }
 
-function castersOf(scene: Scene): Caster[] {
+function castersOf(scene: Scene, layers: Layers): Caster[] {
     const casters: Caster[] = [];
     scene.traverseVisible((object: Object3D) => {
-        if (!object.castShadow || !(object instanceof Mesh) || object instanceof TubeLight) return;
+        if (!object.castShadow || !(object instanceof Mesh) || object instanceof TubeLight || !object.layers.test(layers)) return;
         const { position } = object.geometry.attributes;
         if (position !== undefined)
             casters.push({ mesh: object, position, instances: object instanceof InstancedMesh ? object : null });
@@ -23,14 +29,20 @@ function castersOf(scene: Scene): Caster[] {
     return casters;
 }
 
-/// Changes with the triangles of a mesh, except by bones and morphs.
-function stateOf({ mesh, position, instances }: Caster): string {
-    const { geometry } = mesh;
-    return [mesh.id, geometry.id, position.version, geometry.index?.version, instances?.instanceMatrix.version, instances?.count,
-        ...mesh.matrixWorld.elements].join();
+/// What holds the numbers of an attribute, and its version: both change with the numbers.
+function stateOfAttribute(attribute: Attribute | null): unknown[] {
+    const buffer = attribute instanceof InterleavedBufferAttribute ? attribute.data : attribute;
+    return [attribute, buffer, buffer?.version];
 }
 
-/// Corners of triangles in world space, nine numbers each. Those with corners that are not finite are left out.
+/// Changes with the triangles of a mesh, except by bones and morphs.
+function stateOf({ mesh, position, instances }: Caster): unknown[] {
+    const { index, drawRange } = mesh.geometry;
+    return [mesh, ...stateOfAttribute(position), ...stateOfAttribute(index), drawRange.start, drawRange.count,
+        ...stateOfAttribute(instances?.instanceMatrix ?? null), instances?.count, ...mesh.matrixWorld.elements];
+}
+
+/// Corners of triangles in world space, nine numbers each. Those with corners that are nowhere or too far away are left out.
 function addCorners({ mesh, position, instances }: Caster, corners: number[]): void {
     const { index, drawRange } = mesh.geometry;
     const { start } = drawRange;
@@ -49,7 +61,7 @@ function addCorners({ mesh, position, instances }: Caster, corners: number[]): v
                 mesh.getVertexPosition(index === null ? corner : index.getX(corner), vertex); // with morphs and bones
                 triangle.push(...vertex.applyMatrix4(matrix).toArray());
             }
-            if (triangle.every(Number.isFinite)) corners.push(...triangle);
+            if (triangle.every(isInRange)) corners.push(...triangle);
         }
     }
 }
@@ -71,15 +83,16 @@ export class Occluders {
     triangleCount = 0;
     /// Of a sphere around all triangles.
     radius = 0;
-    private state = "";
+    private state: unknown[] = [];
 
-    /// Gathers the scene again if meshes moved, came or went, or have other vertices, by the versions of their attributes.
-    /// \param isForced whether that is known, as with bones and morphs.
+    /// Gathers the scene again if meshes moved, came or went, or have other vertices, by their attributes and the versions of these.
+    /// \param layers   meshes in one of them count.
+    /// \param isForced whether the scene has changed in another way, as by bones and morphs.
     /// \return whether it did
-    update(scene: Scene, isForced: boolean): boolean {
-        const casters = castersOf(scene);
-        const state = casters.map(stateOf).join(";");
-        if (state === this.state && !isForced) return false;
+    update(scene: Scene, layers: Layers, isForced: boolean): boolean {
+        const casters = castersOf(scene, layers);
+        const state = casters.flatMap(stateOf);
+        if (!isForced && state.length === this.state.length && state.every((value, i) => value === this.state[i])) return false;
         this.state = state;
         this.dispose();
         const corners: number[] = [];

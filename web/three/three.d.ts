@@ -37,19 +37,27 @@ declare module "three" {
         setFromUnitVectors(from: Vector3, to: Vector3): this;
     }
     export class Color {
-        constructor(color?: ColorLike);
+        constructor(color?: ColorRepresentation);
         copy(color: Color): this;
         clone(): Color;
         setRGB(r: number, g: number, b: number): this;
         multiplyScalar(scale: number): this;
         toArray(): [number, number, number];
     }
-    export type ColorLike = Color | number | string;
+    export type ColorRepresentation = Color | number | string;
 
     export class BufferAttribute {
         constructor(array: Float32Array, itemSize: number);
         readonly count: number;
         readonly version: number;
+        getX(index: number): number;
+    }
+    export class InterleavedBuffer {
+        readonly version: number;
+    }
+    export class InterleavedBufferAttribute {
+        readonly count: number;
+        readonly data: InterleavedBuffer;
         getX(index: number): number;
     }
     export class Float32BufferAttribute extends BufferAttribute {
@@ -58,7 +66,7 @@ declare module "three" {
     export class BufferGeometry {
         readonly id: number;
         readonly index: BufferAttribute | null;
-        readonly attributes: Readonly<Record<string, BufferAttribute | undefined>>;
+        readonly attributes: Readonly<Record<string, BufferAttribute | InterleavedBufferAttribute | undefined>>;
         readonly drawRange: { readonly start: number; readonly count: number };
         setAttribute(name: string, attribute: BufferAttribute): this;
         computeVertexNormals(): void;
@@ -101,8 +109,13 @@ declare module "three" {
         readonly uniforms: Record<string, { value: unknown }>;
     }
 
+    export class Layers {
+        mask: number;
+        test(layers: Layers): boolean;
+    }
     export class Object3D {
         readonly id: number;
+        readonly layers: Layers;
         name: string;
         castShadow: boolean;
         receiveShadow: boolean;
@@ -131,7 +144,7 @@ declare module "three" {
         getMatrixAt(index: number, matrix: Matrix4): void;
     }
     export class RectAreaLight extends Object3D {
-        constructor(color: ColorLike, intensity: number, width: number, height: number);
+        constructor(color: ColorRepresentation, intensity: number, width: number, height: number);
         readonly isRectAreaLight: true;
         readonly color: Color;
         intensity: number;

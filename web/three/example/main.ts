@@ -53,18 +53,21 @@ function start() {
     active.addEventListener("change", () => { lights.active = active.checked; });
 
     const example = { scene, camera, orbit, lights, frames, renderer, floor, lamps, mostFrames, mostPixels };
+    const view = find("view");
     const resize = () => {
-        const scale = Math.min(1, Math.sqrt(example.mostPixels / (innerWidth * innerHeight)));
-        renderer.setSize(Math.round(scale * innerWidth), Math.round(scale * innerHeight), false);
-        camera.aspect = innerWidth / innerHeight;
+        const { clientWidth: width, clientHeight: height } = view;
+        const scale = Math.min(1, Math.sqrt(example.mostPixels / (width * height)));
+        renderer.setSize(Math.round(scale * width), Math.round(scale * height), false);
+        if (width === 0 || height === 0) return;
+        camera.aspect = width / height;
         camera.updateProjectionMatrix();
     };
-    window.addEventListener("resize", resize);
+    new ResizeObserver(resize).observe(view);
     resize();
 
     const loop = () => {
         try {
-            if (lights.update()) frames.restart();
+            if (lights.update(camera)) frames.restart();
             orbit.update();
             if (frames.count < example.mostFrames || frames.isOutdated(camera)) frames.render(scene, camera);
             find("numbers").textContent = `${frames.count} frames, ${lights.triangleCount} triangles`;
