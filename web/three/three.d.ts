@@ -158,6 +158,7 @@ declare module "three" {
     export class PerspectiveCamera extends Camera {
         constructor(fov?: number, aspect?: number, near?: number, far?: number);
         aspect: number;
+        fov: number;
         setViewOffset(fullWidth: number, fullHeight: number, x: number, y: number, width: number, height: number): void;
         clearViewOffset(): void;
         updateProjectionMatrix(): void;

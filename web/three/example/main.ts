@@ -9,6 +9,8 @@ import { AreaLights, FrameSum } from "../index";
 import { makeExample } from "./scene";
 
 const mostFrames = 1024;
+const leastAspect = 4 / 3;
+const degrees = 180 / Math.PI;
 const mostPixels = 960 * 540; ///< of the canvas; it is scaled to the size of the window
 
 function find<T extends HTMLElement>(id: string): T {
@@ -54,12 +56,16 @@ function start() {
 
     const example = { scene, camera, orbit, lights, frames, renderer, floor, lamps, mostFrames, mostPixels };
     const view = find("view");
+    const { fov } = camera;
     const resize = () => {
         const { clientWidth: width, clientHeight: height } = view;
         const scale = Math.min(1, Math.sqrt(example.mostPixels / (width * height)));
         renderer.setSize(Math.round(scale * width), Math.round(scale * height), false);
         if (width === 0 || height === 0) return;
         camera.aspect = width / height;
+        // High pictures show as much of the width as those of 4 : 3, or the lights would be outside.
+        const highness = Math.max(1, leastAspect / camera.aspect);
+        camera.fov = 2 * degrees * Math.atan(highness * Math.tan(0.5 * fov / degrees));
         camera.updateProjectionMatrix();
     };
     new ResizeObserver(resize).observe(view);
