@@ -2,6 +2,7 @@
 /// Lights in columns: number k of light i is columns[k * stride + i]. Four lights, one per lane, are a group.
 
 #include <cstddef>
+#include <limits>
 
 #include <nusselt/cones/round_lights.h>
 #include <nusselt/geometry/convex_polygon.h>
@@ -43,6 +44,16 @@ struct Writer {
     }
 };
 
+/// Where the first `columns` numbers are within what techniques take: finite, and so small that no difference of two
+/// overflows. Programs in other languages pass on whatever they have got; lights with other numbers are empty.
+template <class Real>
+mask_t<Real> are_in_range(const Reader<Real>& reader, int columns) noexcept {
+    const Real largest(std::numeric_limits<scalar_t<Real>>::max() / 4);
+    mask_t<Real> in_range(true);
+    for (int k = 0; k < columns; ++k) in_range &= abs(reader.number(k)) <= largest;
+    return in_range;
+}
+
 /// \name The kinds of lights of techniques.json. kRandom is how many random numbers a sample takes, takes() whether
 /// lights may have so many columns, and read() returns what the constructor of a technique takes.
 /// @{
@@ -59,8 +70,10 @@ struct Polygon {
     template <class Real>
     static ConvexPolygon<Real, N> read(const Reader<Real>& reader, int columns) noexcept {
         const int count = columns / 3;
+        const auto in_range = are_in_range(reader, columns);
         Vec3<Real> vertices[N];
-        for (int j = 0; j < N; ++j) vertices[j] = reader.vector(3 * (j < count ? j : count - 1));
+        for (int j = 0; j < N; ++j)
+            vertices[j] = select(in_range, reader.vector(3 * (j < count ? j : count - 1)), Vec3<Real>{});
         return make_polygon<N>(vertices, N);
     }
 };
@@ -76,19 +89,23 @@ struct Line {
     static constexpr bool takes(int columns) noexcept { return columns == 6; }
 
     template <class Real>
-    static LineSegment<Real> read(const Reader<Real>& reader, int) noexcept {
-        return make_line(reader.vector(0), reader.vector(3));
+    static LineSegment<Real> read(const Reader<Real>& reader, int columns) noexcept {
+        const auto in_range = are_in_range(reader, columns);
+        return make_line(select(in_range, reader.vector(0), Vec3<Real>{}),
+                         select(in_range, reader.vector(3), Vec3<Real>{}));
     }
 };
 
-/// The columns of the axis as a line, and the radius [m].
+/// The columns of the axis as a line, and the radius [m]. Negative radii are out of range, too.
 struct Cylinder {
     static constexpr int kRandom = 2;
     static constexpr bool takes(int columns) noexcept { return columns == 7; }
 
     template <class Real>
     static nusselt::Cylinder<Real> read(const Reader<Real>& reader, int columns) noexcept {
-        return {Line::read(reader, columns), reader.number(6)};
+        const Real radius = reader.number(6);
+        const auto usable = are_in_range(reader, columns) & (radius >= Real(0));
+        return {Line::read(reader, columns), select(usable, radius, Real(0))};
     }
 };
 

@@ -11,7 +11,21 @@ import { pathToFileURL } from "node:url";
 const folder = resolve(process.argv[2]);
 const read = file => import(pathToFileURL(join(folder, file)));
 const { load, techniques } = await read("nusselt.js");
-const nusselt = await load();
+
+// Instances have memory of their own, and all come from one module. Node.js has others for itself.
+const bytesOfModule = readFileSync(join(folder, "nusselt.wasm")).length;
+let compilations = 0;
+for (const name of ["compile", "instantiate"]) {
+    const original = WebAssembly[name];
+    WebAssembly[name] = (source, ...rest) => {
+        compilations += Number(source.byteLength === bytesOfModule);
+        return original(source, ...rest);
+    };
+}
+const instances = [...await Promise.all([load(), load()]), await load()];
+assert.equal(new Set(instances.map(({ exports }) => exports.memory)).size, 3);
+assert.equal(compilations, 1);
+const [nusselt] = instances;
 
 /** Columns of lights that are given as rows. */
 function columnsOf(rows) {
@@ -44,6 +58,32 @@ assert.deepEqual([...areas([triangle, triangle])], [0.5, 0.5]);
 assert.deepEqual([...areas([[...triangle, 0, 1, 1]])], [0.5]);
 assert.ok(Math.abs(areas([octagon])[0] - Math.SQRT2 * 2) < 1e-6);
 
+// Lights with numbers beyond the limits are empty for all techniques, and their neighbours are what they are.
+const lobe = [1, 0.1, 1, -0.1, 1];
+const shapes = { polygon: side, rectangle: side, line: [-1, 0, 1, 1, 0, 1], cylinder: [-1, 0, 1, 1, 0, 1, 0.1] };
+const rowOf = light => {
+    const shape = shapes[light.replace("_on_lobe", "")];
+    return { size: shape.length, row: light.endsWith("_on_lobe") ? [...shape, ...lobe] : shape };
+};
+for (const { name, light } of techniques) {
+    const { size, row } = rowOf(light);
+    const bad = [];
+    for (const number of [NaN, Infinity, -Infinity, 1e38, -3e38])
+        for (let k = 0; k < size; ++k) bad.push(row.map((value, i) => i === k ? number : value));
+    if (light.startsWith("cylinder")) for (const radius of [-0.1, -1e30]) bad.push(row.map((value, i) => i === 6 ? radius : value));
+    const rows = [row, ...bad, row];
+    const lights = nusselt.prepare(name, rows.length, columnsOf(rows));
+    const measures = lights.measure();
+    assert.ok(measures[0] > 0 && measures[0] === measures.at(-1), name);
+    assert.ok(measures.slice(1, -1).every(measure => measure === 0), `${name}: ${measures}`);
+    const samples = lights.sample(new Float32Array(rows.length * (light.startsWith("line") ? 1 : 2)).fill(0.3));
+    assert.ok(samples.pdf[0] > 0 && samples.pdf.slice(1, -1).every(density => density === 0), name);
+    for (const values of [samples.wi, lights.pdf(samples.wi), lights.invert(samples.wi)])
+        assert.ok(values.every(Number.isFinite), name);
+    assert.ok(lights.pdf(samples.wi).slice(1, -1).every(density => density === 0), name);
+    lights.free();
+}
+
 // Wrong use has an error that says what is wrong.
 const fails = (run, message) =>
     assert.throws(run, error => error.message.startsWith("nusselt: ") && message.test(error.message));
@@ -52,6 +92,16 @@ fails(() => nusselt.prepare("PolygonArea", 1, new Float32Array(13)), /takes no 1
 fails(() => nusselt.prepare("PolygonArea", 0, new Float32Array(0)), /takes no 0 lights/);
 fails(() => nusselt.prepare("PolygonArea", 1, new Float32Array(27)), /takes no 1 lights/);
 fails(() => nusselt.prepare("LineArea", 1.5, new Float32Array(9)), /takes no 1.5 lights/);
+// Matrices that are not those of lobes: mirrored, singular, not finite.
+for (const { name, light } of techniques.filter(({ light }) => light.endsWith("_on_lobe"))) {
+    const { row } = rowOf(light);
+    for (const edit of [{ 0: -1 }, { 2: -1 }, { 2: 0 }, { 0: 0, 1: 0 }, { 1: NaN }, { 2: Infinity }, { 4: Infinity, 3: -Infinity }]) {
+        const wrong = [...row.slice(0, -5), ...lobe.map((value, k) => edit[k] ?? value)];
+        fails(() => nusselt.prepare(name, 3, columnsOf([row, row, wrong])), /the lobe of light 2 has m11 = .*; both must be positive and finite/);
+    }
+    const mirrored = [...row.slice(0, -5), -1, 0.1, 1, -0.1, -1]; // in both x and z: the determinant is positive
+    nusselt.prepare(name, 1, columnsOf([mirrored])).free();
+}
 fails(() => windows.sample(new Float32Array(11)), /11 random numbers are no multiple of 10/);
 fails(() => windows.pdf(new Float32Array(0)), /0 coordinates are no multiple of 15/);
 fails(() => windows.pdf([0, 0, 1]), /the coordinates must be a Float32Array/);

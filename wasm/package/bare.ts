@@ -88,6 +88,18 @@ function checkType(values: unknown, what: string): void {
     if (!(values instanceof Float32Array)) throw new TypeError(`nusselt: the ${what} must be a Float32Array`);
 }
 
+/** The last five columns of lights are the matrices of lobes. */
+function checkLobes(count: number, lights: Float32Array): void {
+    const columns = [5, 4, 3, 2, 1].map(fromLast => lights.subarray(lights.length - fromLast * count));
+    for (let i = 0; i < count; ++i) {
+        const [m00, m02, m11, m20, m22] = columns.map(column => column[i]!) as [number, number, number, number, number];
+        const minor = m00 * m22 - m02 * m20; // the products are exact
+        if (!(m11 > 0 && m11 < Infinity && minor > 0 && minor < Infinity))
+            throw new RangeError(`nusselt: the lobe of light ${i} has m11 = ${m11} and m00 m22 - m02 m20 = ${minor}; ` +
+                                 "both must be positive and finite");
+    }
+}
+
 /** Lights that a technique has prepared. They occupy memory of the module until `free()`. */
 export class Lights {
     private readonly groups: number;
@@ -198,15 +210,20 @@ export class Nusselt {
     constructor(private readonly exports: Exports) {}
 
     /**
-     * Prepares lights for sampling.
+     * Prepares lights for sampling. Lights with numbers that are not finite or beyond 8e37, and cylinders with a negative
+     * radius, are empty: their measure is 0, and so are all densities.
      * @param count how many
      * @param lights the columns of `count` lights (docs/wasm.md)
+     * @throws RangeError for another number of columns than the technique takes, and for matrices of lobes without a positive
+     *         determinant and a positive m11
      */
     prepare(technique: TechniqueName, count: number, lights: Float32Array): Lights {
         checkType(lights, "columns of lights");
-        const row = this.exports.nusselt_row(indexOf(technique), lights.length / count);
+        const index = indexOf(technique);
+        const row = this.exports.nusselt_row(index, lights.length / count);
         if (!Number.isInteger(count) || count < 1 || lights.length % count !== 0 || row < 0)
             throw new RangeError(`nusselt: ${technique} takes no ${count} lights from ${lights.length} numbers`);
+        if (techniques[index]!.light.endsWith("_on_lobe")) checkLobes(count, lights);
         return new Lights(this.exports, row, count, lights);
     }
 }

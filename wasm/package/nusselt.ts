@@ -7,9 +7,15 @@ export * from "./bare.js";
 /** What all browsers with vector instructions in WebAssembly have; TypeScript knows it from version 5.1 on. */
 declare const DecompressionStream: new (format: "gzip") => ReadableWritablePair<Uint8Array, Uint8Array>;
 
-/** Instantiates the module that this file contains. */
-export async function load(): Promise<Nusselt> {
+let compiled: Promise<WebAssembly.Module> | undefined;
+
+async function compile(): Promise<WebAssembly.Module> {
     const bytes = Uint8Array.from(atob(compressed), letter => letter.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return instantiate(await new Response(stream).arrayBuffer());
+    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+/** A new instance of the module that this file contains, with memory of its own. The first call compiles it. */
+export async function load(): Promise<Nusselt> {
+    return instantiate(await (compiled ??= compile()));
 }
