@@ -13,11 +13,13 @@ const found = document.querySelector("#found");
 const root = document.body.dataset.root;
 const kMostResults = 12;
 const kMostOfOnePage = 3;
+const kMostWords = 10;
 
 // Sections that have every word, each as the beginning of a word of theirs; first those that have them in their headings, then
 // those that have them most often.
 function matches(text) {
-    const words = text.match(/[\p{L}\p{N}_]+/gu) ?? [];
+    // Each word is sought in all sections. The field takes no long text, but scripts put in what they like.
+    const words = [...new Set(text.slice(0, query.maxLength).match(/[\p{L}\p{N}_]+/gu))].slice(0, kMostWords);
     if (words.length === 0) return [];
     const patterns = words.map((word) => new RegExp(`(?<![\\p{L}\\p{N}])${word}`, "giu"));
     const count = (pattern, where) => where.match(pattern)?.length ?? 0;
@@ -78,7 +80,9 @@ query.addEventListener("input", () => load().then(show, () => say("The index of 
 document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") found.hidden = true;
     const isTyping = event.target instanceof HTMLInputElement;
-    if (event.key === "/" && !isTyping) {
+    // Ctrl+/ and the like belong to browsers. Some keyboards need AltGr for a slash.
+    const isShortcut = (event.ctrlKey || event.altKey || event.metaKey) && !event.getModifierState("AltGraph");
+    if (event.key === "/" && !isTyping && !isShortcut) {
         event.preventDefault();
         query.focus();
     }

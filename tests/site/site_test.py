@@ -117,6 +117,41 @@ class SiteTest(unittest.TestCase):
         browser.click(browser.find("a", found[0]))
         self.assertIn("cylinder.html", browser.driver.current_url)
 
+    def test_shortcuts_of_the_browser_stay_its_own(self):
+        self.open("index.html")
+        focused = "return document.activeElement.id"
+        for modifier in (Keys.CONTROL, Keys.ALT, Keys.META):
+            browser.actions().key_down(modifier).send_keys("/").key_up(modifier).perform()
+            browser.settle()
+            self.assertNotEqual(browser.script(focused), "query")
+        # Typing a slash into the field writes one.
+        browser.actions().send_keys("/").send_keys("/").perform()
+        browser.settle()
+        self.assertEqual(browser.script(f"{focused} + document.activeElement.value"), "query/")
+
+    def test_the_search_takes_long_texts(self):
+        """They do not freeze the page: neither one long word nor many words."""
+        self.open("index.html")
+        self.found("sampling")
+        for text in ("'x'.repeat(1e6)", "'sampling '.repeat(1e5)", "Array.from({ length: 1e5 }, (_, i) => `a${i}`).join(' ')"):
+            with self.subTest(text=text):
+                taken = browser.script(f"""
+                    const query = document.getElementById('query');
+                    query.value = {text};
+                    const begin = performance.now();
+                    return matches(query.value) && performance.now() - begin;""")
+                self.assertLess(taken, 1000)
+        # Words beyond the last one that counts change nothing.
+        words = "a b c d e f g h i j"
+        expected = browser.script("return matches(arguments[0]).length", words)
+        self.assertGreater(expected, 0)
+        self.assertEqual(browser.script("return matches(arguments[0]).length", f"{words} a zzzqqq"), expected)
+        self.assertEqual(browser.script("return matches(arguments[0]).length", "a zzzqqq"), 0)
+        query = browser.find("#query")
+        query.clear()
+        query.send_keys("y" * 300)
+        self.assertEqual(len(query.get_attribute("value")), 200)
+
     def test_the_search_takes_any_text(self):
         self.open("index.html")
         for words in ("zzzqqq", "*", "-", "a:b", "<b>", "^2 ~1", "+"):
