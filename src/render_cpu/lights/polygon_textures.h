@@ -1,11 +1,15 @@
 #pragma once
-/// The textures of polygonal lights, prepared for kernels.
+/// The textures of polygonal lights, prepared for kernels, once for all lights that show the same.
 
 #include "render_cpu/lights/polygon_records.h"
 #include "scene/model/scene.h"
 
+#include <nusselt/core/vec.h>
+
 #include <cstdint>
-#include <memory>
+#include <map>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace nusselt::render_cpu {
@@ -24,8 +28,15 @@ public:
 
 private:
     struct Prepared;
+    using Texels = std::vector<Vec3<float>>;
+    /// A texture and the radiance of a texel of 1.
+    using TexelKey = std::tuple<const scene::EmissionTexture*, float, float, float>;
+    /// Texels and the outline of a light in them.
+    using LightKey = std::pair<const Texels*, std::vector<float>>;
 
-    std::vector<std::unique_ptr<Prepared>> prepared_;
+    // Equal lights share what is prepared.
+    std::map<TexelKey, Texels> texels_;
+    std::map<LightKey, Prepared> prepared_;
     std::vector<PolygonTexture> records_;
 };
 

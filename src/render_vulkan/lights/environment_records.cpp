@@ -10,6 +10,8 @@
 #include <nusselt/emission/environment_map_words.h>
 
 #include <cstddef>
+#include <map>
+#include <tuple>
 
 namespace nusselt::render_vulkan {
 
@@ -51,6 +53,8 @@ void write_environments(const scene::Scene& scene, const scene::LightList& list,
     const auto& environments = dynamic_cast<const scene::LightsOf<scene::EnvironmentLight>&>(list);
     std::vector<std::uint32_t>& words = records.array_at(interface::kEmissionWordsBinding).words;
     std::vector<interface::EnvironmentLightRecord> lights;
+    // Lights with the same map and radiance share its words.
+    std::map<std::tuple<const scene::EnvironmentMapTexels*, float, float, float>, std::uint32_t> maps;
     for (const scene::EnvironmentLight& light : environments.lights) {
         interface::EnvironmentLightRecord& record = lights.emplace_back();
         copy(light.x_axis, record.x_axis);
@@ -62,9 +66,13 @@ void write_environments(const scene::Scene& scene, const scene::LightList& list,
         copy(portal.normal, record.normal);
         record.first_corner_word = portal.first_word;
         records.has_shape_of(constant_of(light)) = true;
-        if (light.map >= 0)
-            record.first_map_word = add_map(*scene.environment_maps.at(static_cast<std::size_t>(light.map)),
-                                            light.radiance, words);
+        if (light.map < 0) continue;
+        const scene::EnvironmentMapTexels& map =
+            *scene.environment_maps.at(static_cast<std::size_t>(light.map));
+        const auto [known, is_new] =
+            maps.try_emplace({&map, light.radiance.x, light.radiance.y, light.radiance.z});
+        if (is_new) known->second = add_map(map, light.radiance, words);
+        record.first_map_word = known->second;
     }
     records.array_at(interface::kEnvironmentLightsBinding) = make_light_array("environments", lights);
 }

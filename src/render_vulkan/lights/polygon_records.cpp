@@ -41,13 +41,14 @@ void write_polygons(const scene::Scene& scene, const scene::LightList& list, Lig
     LightArray& emission = records.array_at(interface::kEmissionWordsBinding);
     emission.what = "emission that varies";
     ProfileWords profiles(emission.words);
+    PolygonTextures textures(records.polygon_slots, emission.words);
     for (const scene::PolygonLight& light : lights) {
         interface::PolygonLightRecord& record = arrays.lights.emplace_back(make_record(light, records));
         records.has_shape_of(constant_of(light)) = true;
         if (light.profile >= 0) record.first_profile_word = profiles.add(scene, light);
         if (light.texture < 0) continue;
         record.texture_number = static_cast<std::int32_t>(arrays.textures.size());
-        arrays.textures.push_back(add_texture(scene, light, records.polygon_slots, emission.words));
+        arrays.textures.push_back(textures.add(scene, light));
     }
     records.array_at(interface::kPolygonLightsBinding) = make_light_array("polygonal lights", arrays.lights);
     records.array_at(interface::kPolygonTexturesBinding) =

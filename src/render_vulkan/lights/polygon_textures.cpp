@@ -10,34 +10,43 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace nusselt::render_vulkan {
 
-namespace {
-
-/// \returns the number of the first word
-std::uint32_t add_cells(const nusselt::TextureView<float>& view, std::span<const scene::Float2> coordinates,
-                        int slots, std::vector<std::uint32_t>& words) {
-    std::vector<Vec2<float>> outline;
-    for (const scene::Float2& at : coordinates) outline.push_back({at.x, at.y});
-    std::vector<float> storage(
-        static_cast<std::size_t>(PyramidShape(kShaderCells, view.width, view.height).size));
-    const ShaderLight light = make_textured_light<BilinearFilter, kShaderCells>(
-        view, outline.data(), static_cast<int>(outline.size()), storage.data());
-    const std::uint32_t first = grow_words(words, static_cast<std::size_t>(TexturedLightWords::count(light)));
-    TexturedLightWords::write(light, slots, words.data() + first);
-    return first;
+const PolygonTextures::Texels& PolygonTextures::find_texels(const scene::EmissionTexture& texture,
+                                                            const scene::Float3& scale) {
+    const auto [known, is_new] = texels_.try_emplace({&texture, scale.x, scale.y, scale.z});
+    Texels& texels = known->second;
+    if (is_new) {
+        texels.radiance = scene::scaled(texture.texels, scale);
+        texels.first_word = add_texels(texels.radiance, words_);
+    }
+    return texels;
 }
 
-} // namespace
+std::uint32_t PolygonTextures::find_cells(const scene::EmissionTexture& texture, const Texels& texels,
+                                          const std::vector<Vec2<float>>& outline) {
+    std::vector<float> numbers;
+    for (const Vec2<float>& at : outline) numbers.insert(numbers.end(), {at.x, at.y});
+    const auto [known, is_new] = cells_.try_emplace({&texels, std::move(numbers)});
+    if (!is_new) return known->second;
+    std::vector<float> storage(
+        static_cast<std::size_t>(PyramidShape(kShaderCells, texture.width, texture.height).size));
+    const nusselt::TextureView<float> view{texels.radiance.data(), texture.width, texture.height};
+    const ShaderLight light = make_textured_light<BilinearFilter, kShaderCells>(
+        view, outline.data(), static_cast<int>(outline.size()), storage.data());
+    known->second = grow_words(words_, static_cast<std::size_t>(TexturedLightWords::count(light)));
+    TexturedLightWords::write(light, slots_, words_.data() + known->second);
+    return known->second;
+}
 
-interface::PolygonTextureRecord add_texture(const scene::Scene& scene, const scene::PolygonLight& light,
-                                            int slots, std::vector<std::uint32_t>& words) {
+interface::PolygonTextureRecord PolygonTextures::add(const scene::Scene& scene,
+                                                     const scene::PolygonLight& light) {
     const scene::TexturedEmission& emission =
         scene.emission_textures.at(static_cast<std::size_t>(light.texture));
     const scene::EmissionTexture& texture = *emission.texture;
-    const std::vector<Vec3<float>> texels =
-        scene::scaled(texture.texels, scene::texel_scale(light, emission));
+    const Texels& texels = find_texels(texture, scene::texel_scale(light, emission));
     const scene::TexturePlacement placement = scene::place_texture(light, emission);
     const auto plane = make_texture_plane(scene::to_vec(placement.corner), scene::to_vec(placement.side_x),
                                           scene::to_vec(placement.side_y));
@@ -49,9 +58,11 @@ interface::PolygonTextureRecord add_texture(const scene::Scene& scene, const sce
     copy(scene::per_channel_ratio({1, 1, 1}, light.radiance), record.inverse_mean);
     record.width = texture.width;
     record.height = texture.height;
-    record.first_texel = add_texels(texels, words);
-    record.first_word = add_cells({texels.data(), texture.width, texture.height},
-                                  std::span(emission.coordinates).first(light.vertices.size()), slots, words);
+    record.first_texel = texels.first_word;
+    std::vector<Vec2<float>> outline;
+    for (const scene::Float2& at : std::span(emission.coordinates).first(light.vertices.size()))
+        outline.push_back({at.x, at.y});
+    record.first_word = find_cells(texture, texels, outline);
     return record;
 }
 

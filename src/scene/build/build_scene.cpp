@@ -62,7 +62,7 @@ std::vector<BuiltShape> build_shapes(const std::vector<PlacedShape>& shapes,
     parallel_for_each_index(shapes.size(), [&](std::size_t i) {
         built[i] = shapes[i].built != nullptr
                        ? std::move(*shapes[i].built)
-                       : build_shape(shapes[i], *description.budget, description.words);
+                       : build_shape(shapes[i], *description.budget, description.words, *description.images);
     });
     return built;
 }

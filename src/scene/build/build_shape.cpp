@@ -102,13 +102,14 @@ void remove_degenerate_triangles(Mesh& mesh) {
     mesh.degenerate_triangles += std::erase_if(mesh.triangles, is_degenerate);
 }
 
-BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
+BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words,
+                         ShownImages& images) {
     BuiltShape built;
     static_cast<Mesh&>(built) = std::visit(MeshMaker(placed, budget, built.warnings), placed.shape->geometry);
     move_to_world(placed, built);
     remove_degenerate_triangles(built);
     if (!is_black(placed.shape->emission.radiance) && !built.triangles.empty())
-        add_polygon_lights(*placed.shape, words, built);
+        add_polygon_lights(*placed.shape, words, images, built);
     return built;
 }
 
@@ -120,11 +121,13 @@ bool becomes_surface(const Geometry& geometry, const Emission& emission, const T
 
 std::string subject_of(const ShapeDescription& shape) { return "shape \"" + std::string(shape.kind) + '"'; }
 
-BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words) {
+BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words,
+                       ShownImages& images) {
     const ShapeDescription& shape = *placed.shape;
     const LightBuilder* const light =
         find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
-    BuiltShape built = light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words);
+    BuiltShape built =
+        light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words, images);
     built.warnings.append(shape.warnings);
     built.triangle_material.assign(built.triangles.size(), static_cast<std::uint32_t>(shape.material));
     if (!built.lights.empty()) built.emitters = {{shape.kind, shape.origin}};

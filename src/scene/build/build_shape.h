@@ -2,6 +2,7 @@
 /// Builds one shape at one place: its triangles and lights.
 
 #include "scene/build/built_shape.h"
+#include "scene/build/lights/shown_images.h"
 #include "scene/build/placed_shape.h"
 
 #include <string>
@@ -19,6 +20,8 @@ std::string subject_of(const ShapeDescription& shape);
 /// mirrored by `reverse_orientation` and once more by a transform that swaps handedness. Their triangle_light refers to
 /// polygons, into which coplanar neighbours are merged. Takes the arrays of the shape unless others share them.
 /// Throws SceneError. Changes nothing but this shape, so that shapes may be built in parallel.
-BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words);
+/// \param images of the scene
+BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const FormatWords& words,
+                       ShownImages& images);
 
 } // namespace nusselt::scene

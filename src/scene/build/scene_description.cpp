@@ -24,7 +24,7 @@ void SceneDescription::add_shape(ShapeDescription shape) {
     std::vector<BuiltShape> built(kLongRow);
     parallel_for_each_index(kLongRow, [&](std::size_t i) {
         auto& description = std::get<ShapeDescription>(first[static_cast<std::ptrdiff_t>(i)]);
-        built[i] = build_shape({&description, description.world_from_object}, *budget, words);
+        built[i] = build_shape({&description, description.world_from_object}, *budget, words, *images);
     });
     world.erase(first, world.end());
     world.emplace_back(join(std::move(built), words.instance));

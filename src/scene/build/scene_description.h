@@ -6,6 +6,7 @@
 #include "scene/build/geometry.h"
 #include "scene/build/lights/emission.h"
 #include "scene/build/lights/light_source.h"
+#include "scene/build/lights/shown_images.h"
 #include "scene/build/limits.h"
 #include "scene/build/textures/texture_plan.h"
 #include "scene/input/named_files.h"
@@ -68,6 +69,7 @@ struct SceneDescription {
     void add_shape(ShapeDescription shape);
 
     std::unique_ptr<SceneBudget> budget = std::make_unique<SceneBudget>();
+    std::unique_ptr<ShownImages> images = std::make_unique<ShownImages>(); ///< that its lights show
     std::deque<SourceFile> sources; ///< the files that locations refer to, the main file first
     FormatWords words;
     std::deque<WorldPart> world; ///< see add_shape()

@@ -1,7 +1,7 @@
 #include "scene/rig/light_image.h"
 
 #include "scene/build/lights/emission.h"
-#include "scene/build/lights/textured_light.h"
+#include "scene/build/lights/shown_images.h"
 #include "scene/build/lights/textured_tube.h"
 #include "scene/colour/colour_space.h"
 #include "scene/model/limits.h"

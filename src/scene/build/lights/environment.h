@@ -25,6 +25,8 @@ struct SkyDescription {
     double turbidity = 3;               ///< see PreethamSky
     Double3 to_sun = {0, 0, 1};         ///< not zero
     Float3 ground = {0.2f, 0.2f, 0.2f}; ///< diffuse albedo of the ground below the horizon
+
+    bool operator==(const SkyDescription&) const = default;
 };
 
 /// The sky with the disk of the sun, and below the horizon a ground that both light.

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace nusselt::scene {
 
@@ -106,14 +108,46 @@ void set_luminaire(const LightSourceDescription& source, PointLight& light, Buil
                                    to_double(light.intensity));
 }
 
-Darkness finish(const LightSourceDescription& source, const std::vector<Texture>& textures, PointLight& light,
-                BuiltShape& shapes) {
+/// The maps of the environments of a scene. Those with the same image or the same sky share one, and it is made once.
+class EnvironmentMaps {
+public:
+    struct Map {
+        std::shared_ptr<const EnvironmentMapTexels> texels;
+        Double3 irradiance;      ///< see irradiance_of()
+        std::int32_t index = -1; ///< in the scene; negative until a light takes it
+    };
+
+    /// \param make a function without parameters that returns the map
+    template <class Make>
+    Map& find(const LightSourceDescription& source, std::int32_t image, const Make& make) {
+        for (auto& [key, map] : maps_)
+            if (key.image == image && key.sky == source.sky) return map;
+        const auto texels = std::make_shared<const EnvironmentMapTexels>(make());
+        return maps_.emplace_back(Key{image, source.sky}, Map{texels, irradiance_of(*texels)}).second;
+    }
+
+private:
+    struct Key {
+        std::int32_t image; ///< index of a texture; negative for skies
+        std::optional<SkyDescription> sky;
+    };
+    std::deque<std::pair<Key, Map>> maps_;
+};
+
+/// What lights are made of.
+struct Parts {
+    const std::vector<Texture>& textures; ///< of the scene
+    EnvironmentMaps maps;
+    BuiltShape& shapes;
+};
+
+Darkness finish(const LightSourceDescription& source, Parts& parts, PointLight& light) {
     if (source.luminaire != nullptr) {
         if (Darkness black = darkness(*source.luminaire)) return black;
-        set_luminaire(source, light, shapes);
+        set_luminaire(source, light, parts.shapes);
     }
     const Texture* const image =
-        light.texture < 0 ? nullptr : &textures[static_cast<std::size_t>(light.texture)];
+        light.texture < 0 ? nullptr : &parts.textures[static_cast<std::size_t>(light.texture)];
     if (is_image(light.distribution)) fit_image(source, image, light);
     const Double3 directions = solid_angle(light);
     if (image != nullptr && is_black(to_float(per_channel_product(directions, to_double(light.intensity)))))
@@ -124,8 +158,8 @@ Darkness finish(const LightSourceDescription& source, const std::vector<Texture>
     return std::nullopt;
 }
 
-Darkness finish(const LightSourceDescription& /*source*/, const std::vector<Texture>& /*textures*/,
-                const DistantLight& /*light*/, BuiltShape& /*shapes*/) {
+Darkness finish(const LightSourceDescription& /*source*/, const Parts& /*parts*/,
+                const DistantLight& /*light*/) {
     return std::nullopt;
 }
 
@@ -140,27 +174,30 @@ EnvironmentImage image_kind(const LightSourceDescription& source, const Texture&
     return kind.value_or(EnvironmentImage::latitude);
 }
 
-Darkness finish(const LightSourceDescription& source, const std::vector<Texture>& textures,
-                EnvironmentLight& light, BuiltShape& shapes) {
+Darkness finish(const LightSourceDescription& source, Parts& parts, EnvironmentLight& light) {
     Double3 irradiance = {std::numbers::pi, std::numbers::pi, std::numbers::pi};
     if (light.map >= 0 || source.sky) {
         const auto of_image = [&] {
-            const Texture& image = textures[static_cast<std::size_t>(light.map)];
-            return make_environment_map_texels(image, image_kind(source, image, shapes.warnings));
+            const Texture& image = parts.textures[static_cast<std::size_t>(light.map)];
+            return make_environment_map_texels(image, image_kind(source, image, parts.shapes.warnings));
         };
-        auto map =
-            std::make_shared<EnvironmentMapTexels>(source.sky ? make_sky_map(*source.sky) : of_image());
-        irradiance = irradiance_of(*map);
-        light.radiance = per_channel_product(light.radiance, map->mean);
-        if (is_black(light.radiance)) return black_image(map->name);
-        light.map = static_cast<std::int32_t>(shapes.environment_maps.size());
-        shapes.environment_maps.push_back(std::move(map));
+        EnvironmentMaps::Map& map = parts.maps.find(
+            source, light.map, [&] { return source.sky ? make_sky_map(*source.sky) : of_image(); });
+        irradiance = map.irradiance;
+        light.radiance = per_channel_product(light.radiance, map.texels->mean);
+        if (is_black(light.radiance)) return black_image(map.texels->name);
+        std::vector<std::shared_ptr<const EnvironmentMapTexels>>& maps = parts.shapes.environment_maps;
+        if (map.index < 0) {
+            map.index = static_cast<std::int32_t>(maps.size());
+            maps.push_back(map.texels);
+        }
+        light.map = map.index;
     }
     if (const double brightness = luminance(irradiance); source.irradiance && brightness > 0)
         light.radiance = to_float((*source.irradiance / brightness) * to_double(light.radiance));
     check_radiance(light.radiance, subject_of(source), source.origin);
     if (light.map < 0) return std::nullopt;
-    const EnvironmentMapTexels& map = *shapes.environment_maps.back();
+    const EnvironmentMapTexels& map = *parts.shapes.environment_maps[static_cast<std::size_t>(light.map)];
     light.radiance = lit_channels(light.radiance);
     if (is_black(light.radiance)) return black_image(map.name);
     check_radiance(brightest_radiance(light.radiance, map.mean, map.largest), subject_of(source),
@@ -194,9 +231,10 @@ std::optional<LightFrame> light_frame(const Transform& world_from_light) {
 
 void add_light_sources(const std::vector<LightSourceDescription>& sources,
                        const std::vector<Texture>& textures, BuiltShape& shapes) {
+    Parts parts{textures, {}, shapes};
     for (const LightSourceDescription& source : sources) {
         const auto add = [&](auto light) {
-            if (const Darkness darkness = finish(source, textures, light, shapes)) {
+            if (const Darkness darkness = finish(source, parts, light)) {
                 warn_of_darkness(source.origin, subject_of(source), *darkness, shapes.warnings);
                 return;
             }

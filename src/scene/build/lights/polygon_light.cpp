@@ -51,13 +51,14 @@ void add_uniform_polygons(const ShapeDescription& shape, const FormatWords& word
 
 } // namespace
 
-void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built) {
+void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, ShownImages& images,
+                        BuiltShape& built) {
     orient_by_shading_normals(built);
     PolygonPartition partition = merge_coplanar_triangles(built.positions, built.triangles);
     if (shape.emission.profile != nullptr)
         add_profiled_polygons(shape, words, std::move(partition), built);
     else if (shape.emission.texture != nullptr && !built.uvs.empty())
-        add_textured_polygons(shape, words, std::move(partition), built);
+        add_textured_polygons(shape, words, std::move(partition), images, built);
     else
         add_uniform_polygons(shape, words, std::move(partition), built);
     if (!shape.is_invisible) return;

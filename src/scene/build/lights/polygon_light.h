@@ -7,6 +7,7 @@ namespace nusselt::scene {
 
 /// Orients the triangles of an emissive shape in world space to the side that emits, and merges them into polygons.
 /// Removes the triangles if the shape is invisible.
-void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, BuiltShape& built);
+void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, ShownImages& images,
+                        BuiltShape& built);
 
 } // namespace nusselt::scene

@@ -2,10 +2,10 @@
 /// Makes the polygonal lights of a shape that emits an image.
 
 #include "scene/build/build_shape.h"
+#include "scene/build/lights/shown_images.h"
 #include "scene/build/polygons/polygon_merge.h"
 
-#include <memory>
-#include <span>
+#include <cstddef>
 
 namespace nusselt::scene {
 
@@ -14,24 +14,8 @@ inline constexpr std::size_t kMaxTexturedPolygons = 1024;
 
 /// Adds the lights of a shape whose emission has a texture. Texture coordinates must be an affine function on each light: a
 /// polygon on which they are not is split into its triangles. Where texture coordinates have no area, the light is uniform.
+/// \param images of the scene
 void add_textured_polygons(const ShapeDescription& shape, const FormatWords& words,
-                           PolygonPartition&& partition, BuiltShape& built);
-
-/// Texture coordinates of a vertex.
-struct TexturePoint {
-    double x = 0, y = 0;
-};
-
-/// What a polygon shows of an image.
-struct ShownImage {
-    TexturedEmission emission; ///< without a texture if the polygon has the mean everywhere
-    bool is_far =
-        false; ///< whether that is so because it shows too many repetitions of the edge of the image
-};
-
-/// Crops an image to a polygon. Where texture coordinates hardly change, the polygon shows the mean.
-/// \param corners an affine function of the vertices, at most 8
-ShownImage show_image(const std::shared_ptr<const EmissionTexture>& image,
-                      std::span<const TexturePoint> corners);
+                           PolygonPartition&& partition, ShownImages& images, BuiltShape& built);
 
 } // namespace nusselt::scene
