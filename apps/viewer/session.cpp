@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -242,6 +243,16 @@ private:
     render_vulkan::DisplayErrors errors_; ///< of what is shown
 };
 
+namespace {
+
+/// Those that a rig added.
+std::vector<std::string> new_warnings(const scene::Scene& before, const scene::Scene& changed) {
+    const auto old = static_cast<std::ptrdiff_t>(before.warnings.size());
+    return {changed.warnings.begin() + old, changed.warnings.end()};
+}
+
+} // namespace
+
 Session::Session(const gpu::Device& device, scene::Scene loaded, render_vulkan::ShadowRays shadow_rays)
     : device_(device), shadow_rays_(shadow_rays), loaded_(std::move(loaded)) {}
 
@@ -250,8 +261,16 @@ Session::~Session() = default;
 void Session::apply(const scene::Rig& rig) {
     scene::Scene changed = loaded_;
     scene::apply_rig(rig, changed);
+    rig_warnings_ = new_warnings(loaded_, changed);
+    edit_warnings_.clear();
     loaded_ = std::move(changed);
     images_.reset();
+}
+
+std::vector<std::string> Session::warnings() const {
+    std::vector<std::string> all = rig_warnings_;
+    all.insert(all.end(), edit_warnings_.begin(), edit_warnings_.end());
+    return all;
 }
 
 void Session::follow(const ViewState& state) {
@@ -262,6 +281,7 @@ void Session::follow(const ViewState& state) {
     }
     const auto begin = Clock::now();
     scene::Scene scene = state.edits.applied_to(loaded_);
+    edit_warnings_ = new_warnings(loaded_, scene);
     scene.camera = camera;
     // The next scene gets the memory of the last one.
     images_.reset();

@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace nusselt::viewer {
 
@@ -73,6 +75,9 @@ public:
     std::uint32_t reference_frames() const;
     std::uint32_t seed(Side side) const; ///< of the last frame
 
+    /// What scene::apply_rig() warned of: the rig that was applied last, then the edits of the last state.
+    std::vector<std::string> warnings() const;
+
     const SessionTimes& times() const { return times_; }
     const gpu::Device& device() const { return device_; }
     render_vulkan::ShadowRays shadow_rays() const { return shadow_rays_; }
@@ -86,6 +91,7 @@ private:
     const gpu::Device& device_;
     render_vulkan::ShadowRays shadow_rays_;
     scene::Scene loaded_;
+    std::vector<std::string> rig_warnings_, edit_warnings_;
     std::unique_ptr<Images> images_; ///< none until the first frame
     PictureSize picture_size_;
     render_vulkan::DisplayErrors errors_;

@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace nusselt::viewer {
@@ -231,6 +232,30 @@ TEST_F(SessionTest, RefusesWhatCannotBeDone_AndGoesOnAsBefore) {
     EXPECT_NE(viewer.message, "");
     EXPECT_TRUE(viewer.state.edits.empty());
     EXPECT_GE(viewer.session.frames(Side::left), 1u);
+}
+
+TEST_F(SessionTest, WarnsOfLightsThatEditsLeaveDark) {
+    Viewer viewer = make_viewer();
+    viewer.next_frame();
+    EXPECT_TRUE(viewer.session.warnings().empty());
+    const base::TemporaryFolder folder;
+    const std::filesystem::path profile = folder / "dark.ies";
+    std::ofstream(profile)
+        << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 1 1 0\n1 1 10\n0 45 90\n0\n0 0 0\n";
+    LightEdit dark;
+    dark.profile.luminaire = viewer.read_light_file(&scene::RigFiles::luminaire, profile);
+    viewer.state.edits.set(0, dark);
+    viewer.next_frame();
+    ASSERT_EQ(viewer.session.warnings().size(), 1u);
+    EXPECT_NE(viewer.session.warnings()[0].find("'dark.ies' is black"), std::string::npos)
+        << viewer.session.warnings()[0];
+    const std::filesystem::path rig = folder / "rig.json";
+    save_lights(rig, viewer.session, viewer.state, viewer.files);
+    viewer.state.edits.set(0, {});
+    viewer.next_frame();
+    EXPECT_TRUE(viewer.session.warnings().empty());
+    viewer.load_lights(rig);
+    EXPECT_EQ(viewer.session.warnings().size(), 1u);
 }
 
 /// Red, green or blue of a picture, 0 to 255.

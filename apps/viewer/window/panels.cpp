@@ -385,6 +385,8 @@ void Panels::draw(Viewer& viewer) {
         draw_times(viewer);
         draw_errors(viewer);
         if (!viewer.message.empty()) ImGui::TextWrapped("%s", viewer.message.c_str());
+        for (const std::string& warning : viewer.session.warnings())
+            ImGui::TextWrapped("Warning: %s", warning.c_str());
         ImGui::Separator();
         draw_settings(viewer);
         // A click on a light opens the section in which it can be edited.

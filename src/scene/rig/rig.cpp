@@ -403,12 +403,12 @@ void RigApplication::warn_of_dark_lights(Warnings& warnings) const {
 }
 
 void RigApplication::warn_of_dark_portals(Warnings& warnings) const {
+    DarkPortals portals(scene_);
     for (const EnvironmentLight& light : scene_.lights.of<EnvironmentLight>()) {
         const std::string& name = scene_.emitters[light.emitter].name;
         const auto change = changed_by_.find(name);
         if (change == changed_by_.end()) continue;
-        if (const Darkness dark = portal_darkness(scene_, light))
-            warn(*change->second, name, *dark, warnings);
+        if (const Darkness dark = portals.of(light)) warn(*change->second, name, *dark, warnings);
     }
 }
 

@@ -124,6 +124,20 @@ TEST_F(Environments, PortalsAreInTheWorld) {
     }
 }
 
+TEST_F(Environments, EqualImagesAndSkiesAreOneMap) {
+    write_picture("grey.pfm", 64, 32, [](int, int) { return Float3{1, 1, 1}; });
+    write_picture("red.pfm", 64, 32, [](int, int) { return Float3{1, 0, 0}; });
+    const std::string image = "LightSource \"infinite\" \"string filename\" ";
+    const std::string sky = "LightSource \"sky\" \"float turbidity\" ";
+    const Scene scene = light(image + "\"grey.pfm\"\n" + image + "\"red.pfm\"\n" + sky + "3\n" + image +
+                              "\"grey.pfm\" \"float scale\" 2\n" + sky + "3\n" + sky + "5\n");
+    std::vector<std::int32_t> maps;
+    for (const EnvironmentLight& part : scene.lights.of<EnvironmentLight>()) maps.push_back(part.map);
+    EXPECT_EQ(maps, (std::vector<std::int32_t>{0, 1, 2, 0, 2, 3}));
+    EXPECT_EQ(scene.environment_maps.size(), 4u);
+    expect_near(scene.lights.of<EnvironmentLight>()[3].radiance, {2, 2, 2}, 1e-5f);
+}
+
 /// Light comes from above only.
 TEST_F(Environments, DarkPortalsGiveAWarning) {
     write_picture("upper.pfm", 64, 32, [](int, int j) {
@@ -149,6 +163,32 @@ TEST_F(Environments, DarkPortalsGiveAWarning) {
     // Upside down, it comes from below.
     EXPECT_TRUE(with_portal("-1", shape, "Rotate 180 1 0 0\n").warnings.empty());
     EXPECT_EQ(with_portal("2", shape, "Rotate 180 1 0 0\n").warnings.size(), 1u);
+}
+
+/// The camera looks along z at a floor, with a portal beside it. A box around the floor leaves no way to the sky.
+TEST_F(Environments, HiddenPortalsGiveAWarning) {
+    const std::string floor =
+        "Shape \"quad\" \"point o\" [-1 -1 1] \"vector u\" [2 0 0] \"vector v\" [0 0 2]\n";
+    const auto wall_at = [](const std::string& x) {
+        return "Shape \"quad\" \"point o\" [" + x + " -9 -9] \"vector u\" [0 99 0] \"vector v\" [0 0 99]\n";
+    };
+    const std::string portal = "LightSource \"infinite\" \"point3 portal\" [2 0 0  2 0 2  2 2 2  2 2 0]\n";
+    const auto scene = [&](const std::string& shapes) {
+        return load("Camera \"perspective\"\nWorldBegin\n" + portal + shapes);
+    };
+    EXPECT_TRUE(scene(floor).warnings.empty());
+    EXPECT_TRUE(scene(floor + wall_at("-1.5")).warnings.empty());
+    const std::string expected =
+        "scene.pbrt:3: environment: nothing that the camera sees receives light through its "
+        "portal; a wall may hide it";
+    EXPECT_EQ(warning(scene(floor + wall_at("1.5"))), expected) << "between floor and portal";
+    EXPECT_EQ(warning(scene(floor + wall_at("5"))), expected) << "beyond the portal";
+    const std::string object = "ObjectBegin \"o\"\n" + wall_at("1.5") + "ObjectEnd\nObjectInstance \"o\"\n";
+    EXPECT_EQ(warning(scene(floor + object)), expected);
+    EXPECT_TRUE(load("LookAt 9 1 1  2 1 1  0 1 0\nCamera \"perspective\"\nWorldBegin\n" + portal + floor +
+                     wall_at("-99"))
+                    .warnings.empty())
+        << "the camera sees the floor through the portal";
 }
 
 TEST_F(Environments, PortalsMoveWithTheirLight) {

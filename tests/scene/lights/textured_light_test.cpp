@@ -44,6 +44,23 @@ std::string mesh(const std::string& uv) {
            (uv.empty() ? "" : "\"point2 uv\" [" + uv + "]");
 }
 
+TEST_F(ImageEmission, EqualPartsAreShared) {
+    const std::string part = "\"point2 uv\" [0.1 0.2 0.4 0.2 0.4 0.7]\n";
+    const std::string other = "\"point2 uv\" [0.1 0.2 0.4 0.2 0.4 0.8]\n";
+    const auto triangle = [](const std::string& points) {
+        return "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" [" + points + "] ";
+    };
+    const Scene scene =
+        light(triangle("0 0 0 1 0 0 1 1 0") + part + triangle("0.3 7.1 0.7 1.9 7.3 0 1.7 8.1 0.9") + part +
+              triangle("0 0 3 1 0 3 1 1 3") + other);
+    ASSERT_EQ(scene.emission_textures.size(), 3u);
+    const auto& [first, second, third] =
+        std::tie(scene.emission_textures[0], scene.emission_textures[1], scene.emission_textures[2]);
+    EXPECT_EQ(first.texture, second.texture);
+    expect_near(first.mean, second.mean, 0);
+    EXPECT_NE(first.texture, third.texture);
+}
+
 TEST_F(ImageEmission, ARectangleHasTheWholeImage) {
     const Scene scene = light(kQuad, "\"float scale\" 2");
     EXPECT_TRUE(scene.warnings.empty());

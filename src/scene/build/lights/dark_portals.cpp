@@ -87,22 +87,29 @@ std::vector<EmitterOrigin> environment_origins(const BuiltShape& shapes) {
     return origins;
 }
 
-Darkness portal_darkness(const Scene& scene, const EnvironmentLight& light) {
-    if (light.portal.size() == 0 || world_triangle_count(scene) + scene.instances.size() == 0)
+Darkness DarkPortals::of(const EnvironmentLight& light) {
+    if (light.portal.size() == 0 || world_triangle_count(scene_) + scene_.instances.size() == 0)
         return std::nullopt;
     const std::string clause = "no surface receives light through its portal, because ";
     const PortalPlane plane = plane_of(light.portal);
-    const Sides surfaces = surface_sides(scene, plane);
+    const Sides surfaces = surface_sides(scene_, plane);
     if (!surfaces.before && !surfaces.beyond) return clause + "all of them are in the plane of the portal";
-    const Sides lit = lit_sides(scene, light, plane);
-    if ((surfaces.before && lit.beyond) || (surfaces.beyond && lit.before)) return std::nullopt;
-    return clause + "the environment is black on the side without surfaces";
+    const Sides lit = lit_sides(scene_, light, plane);
+    if (!(surfaces.before && lit.beyond) && !(surfaces.beyond && lit.before))
+        return clause + "the environment is black on the side without surfaces";
+    if (!view_) view_.emplace(scene_);
+    const auto arrives = [&](const Double3& direction) {
+        return dot(plane.normal, direction) > 0 ? lit.beyond : lit.before;
+    };
+    if (view_->receives_light(light.portal, arrives)) return std::nullopt;
+    return "nothing that the camera sees receives light through its portal; a wall may hide it";
 }
 
 void warn_of_dark_portals(const Scene& scene, const std::vector<EmitterOrigin>& origins, Warnings& warnings) {
     const auto& lights = scene.lights.of<EnvironmentLight>();
+    DarkPortals portals(scene);
     for (std::size_t i = 0; i < lights.size(); ++i)
-        if (const Darkness darkness = portal_darkness(scene, lights[i]))
+        if (const Darkness darkness = portals.of(lights[i]))
             warn_of_darkness(origins[i].location, std::string(origins[i].kind), *darkness, warnings);
 }
 
