@@ -88,7 +88,7 @@ configure_file(parity/twins.h.in ${CMAKE_CURRENT_BINARY_DIR}/shaders/twins.h @ON
 
 foreach(functions arithmetic brdf_direct_light bsdf clip engine_table frame light_random line line_direct_light
     line_shading lobe ltc_table mis phong polygon polygon_brdf polygon_direct_light polygon_shading random shading_frame
-    trig visible_normals)
+    trig visible_normals visible_part)
     nusselt_add_shader(nusselt_lab_parity ${functions} ${PROJECT_SOURCE_DIR}/shaders/parity/functions/${functions}.comp)
 endforeach()
 

@@ -5,8 +5,10 @@
 #include "lab/parity/groups/function_groups.h"
 #include "lab/parity/groups/ltc_groups.h"
 #include "lab/parity/groups/random_numbers.h"
+#include "lab/parity/groups/visible_part_group.h"
 #include "mutant.h"
 #include "platform_test.h"
+#include "shaders/capless_part.h"
 #include "shaders/plain_lobe.h"
 #include "shaders/plain_products.h"
 #include "shaders/seamed_table.h"
@@ -29,6 +31,16 @@ TEST_F(FunctionMutant, DifferencesThatCancelAreFound) {
         ASSERT_FALSE(excesses.empty());
         for (const std::string& excess : excesses)
             EXPECT_EQ(excess.rfind("difference_of_products, ", 0), 0u) << excess;
+    }
+}
+
+TEST_F(FunctionMutant, TubesWithoutTheirCapsAreFound) {
+    for (const auto& shader : wherever_it_runs({"capless_part", shaders::kCaplessPart})) {
+        SCOPED_TRACE(name_of(shader.variant));
+        const auto excesses = judge_group<VisibleParts>(platform(), shader, kMutantCalls).excesses;
+        ASSERT_FALSE(excesses.empty());
+        for (const std::string& excess : excesses)
+            EXPECT_NE(excess.find("of a tube"), std::string::npos) << excess;
     }
 }
 

@@ -243,7 +243,7 @@ TEST_F(SessionTest, WarnsOfLightsThatEditsLeaveDark) {
     std::ofstream(profile)
         << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 1 1 0\n1 1 10\n0 45 90\n0\n0 0 0\n";
     LightEdit dark;
-    dark.profile.luminaire = viewer.read_light_file(&scene::RigFiles::luminaire, profile);
+    dark.profile.luminaire = viewer.read_light_file(&scene::RigFiles::profile, profile);
     viewer.state.edits.set(0, dark);
     viewer.next_frame();
     ASSERT_EQ(viewer.session.warnings().size(), 1u);
