@@ -1,4 +1,5 @@
-/// Tests that samples of spheres, disks, ellipses and ellipsoids follow the cosine, by counts in cells of the light.
+/// Tests that samples of spheres, disks, ellipses and ellipsoids follow the cosine, by counts in cells of the light, and that the
+/// samples of all techniques follow their densities, by means of a function.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,9 @@
 
 #include "cones/round_cases.h"
 #include "hypothesis.h"
+#include "ltc/reference.h"
+#include "proof/hostile/round_reference.h"
+#include "sampling/lights.h"
 
 namespace nusselt_test {
 namespace {
@@ -86,46 +90,89 @@ TEST(ConeSamplesTest, SolidAngleIsRejected) {
         is_rejected([](const auto& light, const Random& u) { return by_solid_angle(light).sample(u).wi; }));
 }
 
-/// Whether means of a function over the density differ from integrals over the part above the horizon.
+/// The ellipse that looks like a light.
+Silhouette silhouette_of(const nusselt::FlatLightView<long double>& view) {
+    return {view.center, view.u, view.v};
+}
+Silhouette silhouette_of(const nusselt::SolidLightView<long double>& view) {
+    return {view.rim * view.center, view.rim * view.u, view.rim * view.v};
+}
+
+/// The integral of the importance of a technique times f over a light: of a lobe, or else of the cosine at the surface.
+template <class Kind, class Function>
+long double integral_of(const typename Kind::template Light<float>& light, const Function& f) {
+    const Silhouette seen = silhouette_of(view_of(exact_light(light), nusselt::detail::SameSpace()));
+    if constexpr (kHasLobe<Kind>) {
+        // In cosine space, where the importance is a cosine and the light ends at the horizon.
+        const ReferenceLobe lobe(light.lobe);
+        const nusselt::Ltc<long double> back(rounded<long double>(light.lobe));
+        const VisiblePart image({lobe.image(seen.center), lobe.image(seen.u), lobe.image(seen.v)});
+        const auto integrand = [&](const Point& o) {
+            return std::max(o.z, 0.0L) / kPi * f(normalize(back.to_shading(o)));
+        };
+        return image.integral(integrand, 0, 1, 0, 1, 96);
+    } else {
+        const auto integrand = [&](const Point& wi) { return std::max(wi.z, 0.0L) * f(wi); };
+        return VisiblePart(seen).integral(integrand, 0, 1, 0, 1, 96);
+    }
+}
+
+/// Whether means of the importance times a function over the density differ from integrals.
+/// \param warp    maps random numbers that should be uniform.
 /// \param density of (technique, sample).
-template <class Density>
-bool means_are_rejected(const Density& density) {
+template <class Kind, class Warp, class Density>
+bool means_are_rejected(const Warp& warp, const Density& density) {
     std::vector<double> p_values;
-    RandomLights lights(22);
     UniformFloats random(5);
-    for (const Place place : {Place::at_horizon, Place::near, Place::elongated}) {
-        for (const Shape shape : kShapes) {
-            for (int repeat = 0; repeat < 3; ++repeat) {
-                const RoundLight light = lights(shape, place);
-                const auto f = [](const Point& wi) {
-                    return std::max(wi.z, 0.0L) * (2 + wi.x + 0.5L * wi.y) * (1.5L + wi.z);
-                };
-                const long double expected = VisiblePart(silhouette_of(light)).integral(f, 0, 1, 0, 1, 96);
-                if (!(expected > 1e-4L)) continue;
-                with_light<float>(light, [&](const auto& l) {
-                    const auto technique = technique_for(l);
-                    MeanTest test;
-                    for (int i = 0; i < kSamples; ++i) {
-                        const float x = random();
-                        const auto s = technique.sample({x, random()});
-                        if (s.pdf > 0)
-                            test.add(f(nusselt::broadcast<long double>(s.wi)) / density(technique, s));
-                    }
-                    // The slack covers rounding in float and the error of the integral.
-                    p_values.push_back(test.p_value(kSamples, expected, 1e-8L));
-                });
-            }
+    for (const auto& light : cases<Kind>()) {
+        const auto local = light_for<Kind, float>(light);
+        const typename Kind::template Technique<float> technique(local);
+        const auto f = [](const Point& wi) { return (2 + wi.x + 0.5L * wi.y) * (1.5L + wi.z); };
+        const auto importance = [&](const Point& wi) {
+            if constexpr (kHasLobe<Kind>) return ReferenceLobe(local.lobe).density(wi);
+            return std::max(wi.z, 0.0L);
+        };
+        MeanTest test;
+        for (int i = 0; i < kSamples; ++i) {
+            const float x = random();
+            const auto s = technique.sample(warp(Random{x, random()}));
+            if (!(s.pdf > 0)) continue;
+            const auto wi = nusselt::broadcast<long double>(s.wi);
+            test.add(importance(wi) * f(wi) / density(technique, s));
         }
+        // The slack covers rounding in float and the error of the integral.
+        p_values.push_back(test.p_value(kSamples, integral_of<Kind>(local, f), 1e-8L));
     }
     return reject(p_values);
 }
 
-TEST(ConeSamplesTest, FollowTheirDensity) {
-    EXPECT_FALSE(means_are_rejected([](const auto&, const auto& sample) { return sample.pdf; }));
+Random unwarped(const Random& u) { return u; }
+constexpr auto kOwnDensity = [](const auto&, const auto& sample) { return sample.pdf; };
+
+template <class Kind>
+class RoundSamplesTest : public ::testing::Test {};
+
+using Types = Instances<TestedBy<StatisticsSuite, RoundKinds, RoundOnLobeKinds>, float>;
+TYPED_TEST_SUITE(RoundSamplesTest, Types, InstanceNames);
+
+TYPED_TEST(RoundSamplesTest, FollowTheirDensity) {
+    EXPECT_FALSE(means_are_rejected<typename TypeParam::Kind>(unwarped, kOwnDensity));
 }
 
-TEST(ConeSamplesTest, DensitiesOffByOnePercentAreRejected) {
-    EXPECT_TRUE(means_are_rejected([](const auto&, const auto& sample) { return 1.01f * sample.pdf; }));
+TYPED_TEST(RoundSamplesTest, MutantsAreRejected) {
+    using Kind = typename TypeParam::Kind;
+    EXPECT_TRUE(means_are_rejected<Kind>(
+        [](const Random& u) {
+            return Random{u.x * u.x, u.y};
+        },
+        kOwnDensity));
+    EXPECT_TRUE(means_are_rejected<Kind>(
+        [](const Random& u) {
+            return Random{u.x, u.y * u.y};
+        },
+        kOwnDensity));
+    EXPECT_TRUE(means_are_rejected<Kind>(unwarped,
+                                         [](const auto&, const auto& sample) { return 1.05f * sample.pdf; }));
 }
 
 } // namespace
