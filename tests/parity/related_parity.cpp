@@ -60,7 +60,8 @@ ParityCase case_of() {
 
 std::vector<ParityCase> related_cases() {
     std::vector<ParityCase> cases;
-    using Kinds = hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds, hostile::CylinderKinds>;
+    using Kinds = hostile::Join<hostile::PolygonKinds<4>, hostile::LineKinds, hostile::CylinderKinds,
+                                hostile::RoundKinds>;
     Kinds().for_each([&]<class Kind> {
         if constexpr (!std::is_same_v<typename Kind::template Published<float>, hostile::Absent>)
             cases.push_back(case_of<ReplacedPair<Kind>>());
