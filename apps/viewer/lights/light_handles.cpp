@@ -145,19 +145,23 @@ Double3 turn_about(std::size_t axis, const Double3& center, const scene::Camera&
 
 FilmLines outline(const scene::Lights& parts, const scene::Camera& camera) {
     FilmLines lines;
-    const auto& surfaces = parts.of<scene::SurfaceLight>();
-    for (const scene::SurfaceLight& part : surfaces)
+    for (const scene::PolygonLight& part : parts.of<scene::PolygonLight>())
         for (std::size_t i = 0; i < part.vertices.size(); ++i)
             add_line(camera, to_double(part.vertices[i]),
                      to_double(part.vertices[(i + 1) % part.vertices.size()]), lines);
+    const auto add_hull_of = [&](const std::vector<scene::Float3>& positions) {
+        std::vector<FilmPosition> corners;
+        for (const scene::Float3& p : positions)
+            if (const auto at = seen_at(camera, to_double(p))) corners.push_back(*at);
+        add_hull(corners, lines);
+    };
+    for (const scene::RoundLight& part : parts.of<scene::RoundLight>())
+        add_hull_of(scene::surface(part, scene::kRoundSides).positions);
     for (const scene::LightList& list : parts) {
         for (std::size_t i = 0; i < list.size(); ++i) {
             scene::LightMesh mesh;
             list.add_mesh(i, mesh);
-            std::vector<FilmPosition> corners;
-            for (const scene::Float3& p : mesh.positions)
-                if (const auto at = seen_at(camera, to_double(p))) corners.push_back(*at);
-            add_hull(corners, lines);
+            add_hull_of(mesh.positions);
         }
     }
     if (lines.size() <= kMostLines) return lines;

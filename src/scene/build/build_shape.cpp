@@ -1,6 +1,7 @@
 #include "scene/build/build_shape.h"
 
 #include "scene/build/lights/polygon_light.h"
+#include "scene/build/lights/round_light.h"
 #include "scene/build/lights/tube_light.h"
 #include "scene/build/tessellate.h"
 #include "scene/input/file_bytes.h"
@@ -21,7 +22,7 @@ struct LightBuilder {
 };
 
 /// Which shapes become which kind of light is decided here: the first row that takes a shape builds it. What no row takes
-/// becomes a surface, whose lights are polygons if it emits.
+/// becomes a surface, whose lights are round or polygons if it emits.
 constexpr LightBuilder kLightBuilders[] = {{becomes_tube, build_tube}};
 
 /// The row that takes a shape, null if it becomes a surface.
@@ -126,8 +127,10 @@ BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const For
     const ShapeDescription& shape = *placed.shape;
     const LightBuilder* const light =
         find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
-    BuiltShape built =
-        light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words, images);
+    BuiltShape built = light != nullptr ? light->build(placed, words)
+                       : becomes_round_light(shape.geometry, shape.emission, placed.world_from_object)
+                           ? build_round_light(placed, words)
+                           : build_surface(placed, budget, words, images);
     built.warnings.append(shape.warnings);
     built.triangle_material.assign(built.triangles.size(), static_cast<std::uint32_t>(shape.material));
     if (!built.lights.empty()) built.emitters = {{shape.kind, shape.origin}};

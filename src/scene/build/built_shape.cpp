@@ -14,23 +14,35 @@ namespace nusselt::scene {
 
 namespace {
 
+template <class Light>
+std::size_t count_of(const std::vector<BuiltShape>& shapes) {
+    std::size_t sum = 0;
+    for (const BuiltShape& shape : shapes) sum += shape.lights.of<Light>().size();
+    return sum;
+}
+
 /// Shifts the indices of each shape by the vertices, lights and emitters of the shapes before it.
 void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
-    std::size_t lights = 0;
+    std::size_t polygons = 0;
+    std::size_t round_lights = count_of<PolygonLight>(shapes); // they are numbered after all polygons
     std::size_t emitters = 0;
     std::size_t textures = 0;
     std::size_t profiles = 0;
     for (BuiltShape& shape : shapes) {
         const auto first_vertex = static_cast<std::uint32_t>(vertices);
-        const auto first_light = static_cast<std::int32_t>(lights);
+        const auto first_polygon = static_cast<std::int32_t>(polygons);
+        const auto polygon_count =
+            static_cast<std::int32_t>(std::as_const(shape.lights).of<PolygonLight>().size());
+        const auto first_round = static_cast<std::int32_t>(round_lights) - polygon_count;
         const auto first_emitter = static_cast<std::uint32_t>(emitters);
         const auto first_texture = static_cast<std::int32_t>(textures);
         const auto first_profile = static_cast<std::int32_t>(profiles);
         vertices += shape.positions.size();
         triangles += shape.triangles.size();
-        lights += std::as_const(shape.lights).of<SurfaceLight>().size();
+        polygons += static_cast<std::size_t>(polygon_count);
+        round_lights += std::as_const(shape.lights).of<RoundLight>().size();
         emitters += shape.emitters.size();
         textures += shape.emission_textures.size();
         profiles += shape.emission_profiles.size();
@@ -38,9 +50,8 @@ void renumber(std::vector<BuiltShape>& shapes, std::string_view copies) {
         if (first_vertex > 0)
             for (Triangle& triangle : shape.triangles)
                 for (std::uint32_t& vertex : triangle.vertex) vertex += first_vertex;
-        if (first_light > 0)
-            for (std::int32_t& light : shape.triangle_light)
-                if (light >= 0) light += first_light;
+        for (std::int32_t& light : shape.triangle_light)
+            if (light >= 0) light += light < polygon_count ? first_polygon : first_round;
         if (first_texture > 0 && !shape.emission_textures.empty()) {
             const auto renumber_textures = [&](auto& list) {
                 for (auto& light : list)

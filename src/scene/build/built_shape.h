@@ -20,7 +20,8 @@ struct EmitterOrigin {
 
 /// The contribution of one shape to the scene, or of several in a row.
 struct BuiltShape : Mesh {
-    /// Empty, or for each triangle the index of a SurfaceLight among those of these shapes, -1 for none.
+    /// Empty, or for each triangle the number of a light among the polygons and then the round lights of these shapes, -1 for
+    /// none.
     std::vector<std::int32_t> triangle_light;
     std::vector<std::uint32_t> triangle_material; ///< for each triangle ShapeDescription::material
     Lights lights; ///< with indices into `emitters`, `emission_textures` and `emission_profiles`

@@ -163,7 +163,7 @@ struct Scene {
     // first, then those of objects.
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> triangle_material; ///< index into materials
-    /// The number of the light, a SurfaceLight, among all lights; -1 for surfaces that do not emit.
+    /// The number of the light, a polygon or a round light, among all lights; -1 for surfaces that do not emit.
     std::vector<std::int32_t> triangle_light;
     std::vector<Object> objects;
     std::vector<Instance> instances;

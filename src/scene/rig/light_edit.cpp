@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace nusselt::scene {
 
@@ -56,6 +57,14 @@ bool have_same_shape(const Lights& a, const Lights& b) {
     return false;
 }
 
+/// The surface of a single part.
+LightSurface surface_of(const EditableLight& light) {
+    LightSurface surface;
+    for (const LightList& list : light.parts)
+        if (list.is_surface() && list.size() > 0) list.add_surface(0, surface);
+    return surface;
+}
+
 bool emits(const EditableLight& light) { return light.is_enabled && !light.is_removed && !is_black(light); }
 
 template <class Array, class Marks>
@@ -94,7 +103,7 @@ std::vector<EditableLight> editable_lights(const Scene& scene) {
     return lights;
 }
 
-bool is_surface(const EditableLight& light) { return !light.parts.of<SurfaceLight>().empty(); }
+bool is_surface(const EditableLight& light) { return surface_light_count(light.parts) > 0; }
 
 bool is_black(const EditableLight& light) {
     for (const LightList& list : light.parts)
@@ -207,17 +216,25 @@ void LightEditor::put_lights_back() {
     for (EditableLight& light : lights_) {
         if (!emits(light)) continue;
         const auto emitter = static_cast<std::uint32_t>(scene_.emitters.size());
-        // A number is needed only for lights with triangles, and those come first.
-        const std::size_t first_light = scene_.lights.of<SurfaceLight>().size();
         scene_.emitters.push_back({light.name});
         for (LightList& list : light.parts)
             for (std::size_t i = 0; i < list.size(); ++i) list.emitter(i) = emitter;
         scene_.lights.append(light.parts);
+    }
+    // A number is needed only for lights with triangles: polygons come first, then round lights.
+    std::size_t polygons = 0;
+    std::size_t round_lights = std::as_const(scene_.lights).of<PolygonLight>().size();
+    for (EditableLight& light : lights_) {
+        if (!emits(light) || !is_surface(light)) continue;
+        const std::size_t polygon_count = std::as_const(light.parts).of<PolygonLight>().size();
+        const std::size_t first_light = polygon_count > 0 ? polygons : round_lights;
         for (const std::uint32_t triangle : light.triangles)
             triangle_light[triangle] =
                 scene_.triangle_light[triangle] +
                 static_cast<std::int32_t>(static_cast<std::int64_t>(first_light) - light.first_light);
         light.first_light = static_cast<std::uint32_t>(first_light);
+        polygons += polygon_count;
+        round_lights += std::as_const(light.parts).of<RoundLight>().size();
     }
     scene_.triangle_light = std::move(triangle_light);
 }
@@ -267,19 +284,18 @@ void LightEditor::add_surfaces() {
     for (const EditableLight& light : lights_) {
         if (!light.has_new_surface || light.is_removed) continue;
         const auto base = static_cast<std::uint32_t>(scene_.positions.size());
-        const PolygonVertices& vertices = light.parts.of<SurfaceLight>()[0].vertices;
-        for (const Float3& p : vertices) {
-            scene_.positions.push_back(p);
-            scene_.normals.push_back({0, 0, 0});
-            scene_.uvs.push_back({0, 0});
-        }
-        for (std::uint32_t i = 1; i + 1 < vertices.size(); ++i) {
-            triangles.push_back({{base, base + i, base + i + 1}});
+        const LightSurface surface = surface_of(light);
+        insert_at(scene_.positions, scene_.positions.size(), surface.positions);
+        insert_at(scene_.normals, scene_.normals.size(), surface.normals);
+        insert_at(scene_.uvs, scene_.uvs.size(), surface.uvs);
+        for (const Triangle& triangle : surface.triangles) {
+            const auto& vertex = triangle.vertex;
+            triangles.push_back({{base + vertex[0], base + vertex[1], base + vertex[2]}});
             materials.push_back(light.material);
             triangle_light.push_back(emits(light) ? static_cast<std::int32_t>(light.first_light) : -1);
         }
+        check_counts(scene_.positions.size(), scene_.triangles.size() + triangles.size());
     }
-    check_counts(scene_.positions.size(), scene_.triangles.size() + triangles.size());
     const std::size_t position = world_triangle_count(scene_);
     insert_at(scene_.triangles, position, triangles);
     insert_at(scene_.triangle_material, position, materials);

@@ -18,7 +18,7 @@ struct EditableLight {
     std::vector<std::uint32_t> triangles; ///< of its surface, while that is in the scene
     /// The number of its first light in the scene, while it has triangles there.
     std::uint32_t first_light = 0;
-    bool has_new_surface = false; ///< LightEditor::finish() makes a surface from its polygon
+    bool has_new_surface = false; ///< LightEditor::finish() makes a surface from its shape
     std::uint32_t material = 0;   ///< of a new surface
     bool is_enabled = true;
     bool is_removed = false;

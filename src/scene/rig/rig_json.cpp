@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -94,6 +95,73 @@ Lights read_panel(const JsonNode& node) {
     const Double3 y = (0.5 * read_length(node.at("height"))) * cross(normal, right);
     return polygon_of({to_float(center - x - y), to_float(center + x - y), to_float(center + x + y),
                        to_float(center - x + y)});
+}
+
+/// The semi-diameters of an ellipse or an ellipsoid.
+void read_axes(const JsonNode& node, std::initializer_list<Float3*> axes) {
+    const std::vector<JsonNode> given = node.elements();
+    if (given.size() != axes.size())
+        node.fail("must be " + std::to_string(axes.size()) + " semi-diameters, found " +
+                  std::to_string(given.size()));
+    for (std::size_t i = 0; i < given.size(); ++i) *axes.begin()[i] = read_point(given[i]);
+}
+
+/// \returns the light, if it has an area and is not too flat
+Lights checked(const JsonNode& node, const RoundLight& light) {
+    if (!LightKind<RoundLight>::is_valid(light))
+        node.fail(
+            "must have an extent of at least 1e-9 m within 1e15 m, and may be at most 1e4 times as long as "
+            "wide or high");
+    return only(light);
+}
+
+RoundModel read_side(const JsonNode& node) {
+    const auto inwards = node.find("inwards");
+    return inwards && inwards->boolean() ? RoundModel::hollow : RoundModel::ellipsoid;
+}
+
+Lights read_sphere(const JsonNode& node) {
+    node.check_fields({"center", "radius", "inwards"});
+    RoundLight light;
+    light.model = read_side(node);
+    light.center = read_point(node.at("center"));
+    const float radius = read_length(node.at("radius"));
+    light.u.x = light.v.y = light.w.z = radius;
+    return checked(node, light);
+}
+
+Lights read_ellipsoid(const JsonNode& node) {
+    node.check_fields({"center", "axes", "inwards"});
+    RoundLight light;
+    light.model = read_side(node);
+    light.center = read_point(node.at("center"));
+    read_axes(node.at("axes"), {&light.u, &light.v, &light.w});
+    return checked(node, light);
+}
+
+Lights read_disk(const JsonNode& node) {
+    node.check_fields({"center", "normal", "radius"});
+    RoundLight light;
+    light.model = RoundModel::ellipse;
+    light.center = read_point(node.at("center"));
+    const Double3 normal = read_direction(node.at("normal"));
+    const double radius = read_length(node.at("radius"));
+    const Double3 other = std::fabs(normal.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0};
+    const Double3 across = normalized(cross(other, normal));
+    light.u = to_float(radius * across);
+    light.v = to_float(radius * cross(normal, across));
+    light.w = {0, 0, 0};
+    return checked(node, light);
+}
+
+Lights read_ellipse(const JsonNode& node) {
+    node.check_fields({"center", "axes"});
+    RoundLight light;
+    light.model = RoundModel::ellipse;
+    light.center = read_point(node.at("center"));
+    read_axes(node.at("axes"), {&light.u, &light.v});
+    light.w = {0, 0, 0};
+    return checked(node, light);
 }
 
 LineLight read_line(const JsonNode& node) {
@@ -222,10 +290,17 @@ struct ShapeField {
     Lights (*read)(const JsonNode& node);
 };
 
-constexpr ShapeField kShapeFields[] = {
-    {"polygon", read_polygon},      {"panel", read_panel},       {"tube", read_tube},
-    {"strip", read_strip},          {"point", read_point_light}, {"spot", read_spot},
-    {"distant", read_distant_light}};
+constexpr ShapeField kShapeFields[] = {{"polygon", read_polygon},
+                                       {"panel", read_panel},
+                                       {"sphere", read_sphere},
+                                       {"ellipsoid", read_ellipsoid},
+                                       {"disk", read_disk},
+                                       {"ellipse", read_ellipse},
+                                       {"tube", read_tube},
+                                       {"strip", read_strip},
+                                       {"point", read_point_light},
+                                       {"spot", read_spot},
+                                       {"distant", read_distant_light}};
 
 std::vector<std::string_view> shape_field_names() {
     std::vector<std::string_view> names;
@@ -348,7 +423,7 @@ LightAddition read_addition(const JsonNode& entry, const LightChanges& changes) 
     if (const auto name = entry.find("name"))
         name->fail("is not supported for new lights; set their name in \"add\"");
     if (const auto material = entry.find("material")) {
-        if (changes.shape->of<SurfaceLight>().empty())
+        if (surface_light_count(*changes.shape) == 0)
             for (const LightList& list : std::as_const(*changes.shape))
                 if (list.size() > 0) material->fail(std::string(list.noun()) + "s have no material");
         addition.material = material->text();

@@ -87,8 +87,7 @@ std::vector<std::string> row_defects(const Light& light, const Extent& extent = 
     const scene::Double3 centroid = tested.centroid();
     const scene::LightMesh mesh = tested.mesh();
 
-    expect(mesh.triangles.empty() == (std::is_same_v<Light, scene::SurfaceLight> || !extent.has_bounds),
-           "add_mesh");
+    expect(mesh.triangles.empty() == (scene::kIsSurface<Light> || !extent.has_bounds), "add_mesh");
     expect(box.is_empty() != extent.has_bounds, "add_to");
     const auto lies_in_box = [&](const scene::Float3& p) { return contains(box, to_double(p), margin); };
     expect(std::all_of(mesh.positions.begin(), mesh.positions.end(), lies_in_box), "add_to");

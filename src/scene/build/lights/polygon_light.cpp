@@ -61,7 +61,10 @@ void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words,
         add_textured_polygons(shape, words, std::move(partition), images, built);
     else
         add_uniform_polygons(shape, words, std::move(partition), built);
-    if (!shape.is_invisible) return;
+    if (shape.is_invisible) remove_surface(built);
+}
+
+void remove_surface(BuiltShape& built) {
     built.positions = {};
     built.normals = {};
     built.uvs = {};

@@ -10,4 +10,7 @@ namespace nusselt::scene {
 void add_polygon_lights(const ShapeDescription& shape, const FormatWords& words, ShownImages& images,
                         BuiltShape& built);
 
+/// Removes the triangles of an invisible shape, which keeps its lights.
+void remove_surface(BuiltShape& built);
+
 } // namespace nusselt::scene

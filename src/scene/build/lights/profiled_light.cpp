@@ -84,6 +84,12 @@ Emission without_profile(const Emission& emission) {
     return result;
 }
 
+void warn_of_too_many_normals(const ShapeDescription& shape, Warnings& warnings) {
+    warnings.add(shape.origin, "profiles of round shapes",
+                 subject_of(shape) + ": it has more than " + std::to_string(kMostLuminousFaces) +
+                     " normals, too many for a profile; it emits as much light alike in all directions");
+}
+
 void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,
                            PolygonPartition&& partition, BuiltShape& built) {
     std::vector<PolygonLight> lights;
@@ -113,10 +119,7 @@ void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& wor
         warn_of_lost_flux(shape, *profiled->emissions.front().profile, built.warnings);
         built.emission_profiles = std::move(profiled->emissions);
     } else {
-        built.warnings.add(shape.origin, "profiles of round shapes",
-                           subject_of(shape) + ": it has more than " + std::to_string(kMostLuminousFaces) +
-                               " normals, too many for a profile; it emits as much light alike in all "
-                               "directions");
+        warn_of_too_many_normals(shape, built.warnings);
         const Float3 radiance =
             radiance_of(without_profile(shape.emission), area(built), words.emission, shape.origin);
         for (PolygonLight& light : lights) light.radiance = radiance;

@@ -9,6 +9,9 @@ namespace nusselt::scene {
 /// The emission of shapes that cannot have its profile: as much light, alike in all directions.
 Emission without_profile(const Emission& emission);
 
+/// Says that a shape emits alike in all directions instead.
+void warn_of_too_many_normals(const ShapeDescription& shape, Warnings& warnings);
+
 /// Adds the lights of a shape whose emission has a profile. Shapes with too many normals emit alike in all directions, with a
 /// warning. Another warning tells what a shape cannot emit of the flux of its luminaire.
 void add_profiled_polygons(const ShapeDescription& shape, const FormatWords& words,

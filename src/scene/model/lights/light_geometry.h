@@ -16,6 +16,14 @@ struct LightMesh {
     std::vector<std::uint32_t> lights; ///< for each triangle, the number of its light among all lights
 };
 
+/// The surface of a light that is one of the scene.
+struct LightSurface {
+    std::vector<Float3> positions;
+    std::vector<Float3> normals; ///< as long as positions; 0 for the geometric normal
+    std::vector<Float2> uvs;     ///< as long as positions
+    std::vector<Triangle> triangles;
+};
+
 /// The mesh of all lights. Lights without extent give degenerate triangles.
 /// \throws std::runtime_error if it has too many triangles, see check_counts()
 LightMesh make_light_mesh(const Scene& scene);

@@ -16,7 +16,7 @@ Lights lists_of() {
 } // namespace
 
 Lights no_lights_of_each_kind() {
-    return lists_of<SurfaceLight, LineLight, PointLight, DistantLight, EnvironmentLight>();
+    return lists_of<PolygonLight, RoundLight, LineLight, PointLight, DistantLight, EnvironmentLight>();
 }
 
 } // namespace nusselt::scene

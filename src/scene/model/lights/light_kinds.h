@@ -7,11 +7,16 @@
 #include "scene/model/lights/line_light.h"
 #include "scene/model/lights/point_light.h"
 #include "scene/model/lights/polygon_light.h"
+#include "scene/model/lights/round_light.h"
+
+#include <cstddef>
 
 namespace nusselt::scene {
 
-/// The only kind whose lights are surfaces: Scene::triangle_light refers to them. Its lights have the lowest numbers.
-using SurfaceLight = PolygonLight;
+/// How many lights are surfaces, to which Scene::triangle_light refers. They have the lowest numbers.
+inline std::size_t surface_light_count(const Lights& lights) {
+    return lights.of<PolygonLight>().size() + lights.of<RoundLight>().size();
+}
 
 /// An empty list for each kind. Lights are numbered in this order.
 Lights no_lights_of_each_kind();

@@ -17,6 +17,7 @@ namespace nusselt::scene {
 
 struct Bounds;
 struct LightMesh;
+struct LightSurface;
 struct Moment;
 struct SightRay;
 struct Transform;
@@ -52,6 +53,7 @@ inline constexpr EmissionQuantity kEmissionQuantities[] = {kRadiance, kIntensity
 ///     bool same_shape(light, light): whether both have the same place and shape;
 ///     const bool* two_sided(light): whether it emits to both sides, null for kinds with one side;
 ///     add_mesh(light, LightMesh&): what cameras see of it, nothing for surfaces of the scene;
+///     add_surface(light, LightSurface&): its surface, only for kinds whose lights are surfaces of the scene;
 ///     double hit(light, SightRay): the parameter at which the ray meets it, infinite for a miss;
 ///     std::string describe(std::span<const Light>, double scene_radius): reports on lights of one emitter;
 ///     std::string rig_field(light): its shape as a field of a light rig, `"name": value`; empty if there is none.
@@ -93,6 +95,10 @@ public:
     virtual bool same_shape(std::size_t i, const LightList& others, std::size_t k) const = 0;
     virtual const bool* two_sided(std::size_t i) const = 0;
     virtual void add_mesh(std::size_t i, LightMesh& mesh) const = 0;
+    /// Whether lights of this kind are surfaces of the scene.
+    virtual bool is_surface() const = 0;
+    /// What rigs add to the scene for such a light.
+    virtual void add_surface(std::size_t i, LightSurface& surface) const = 0;
     virtual double hit(std::size_t i, const SightRay& ray) const = 0;
     virtual std::string describe(std::size_t begin, std::size_t end, double scene_radius) const = 0;
     virtual std::string rig_field(std::size_t i) const = 0;

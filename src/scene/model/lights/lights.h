@@ -8,6 +8,11 @@
 namespace nusselt::scene {
 
 template <class Light>
+inline constexpr bool kIsSurface = requires(const Light& light, LightSurface& surface) {
+    LightKind<Light>::add_surface(light, surface);
+};
+
+template <class Light>
 class LightsOf final : public LightList {
 public:
     using Kind = LightKind<Light>;
@@ -60,6 +65,10 @@ public:
     }
     const bool* two_sided(std::size_t i) const override { return Kind::two_sided(lights[i]); }
     void add_mesh(std::size_t i, LightMesh& mesh) const override { Kind::add_mesh(lights[i], mesh); }
+    bool is_surface() const override { return kIsSurface<Light>; }
+    void add_surface([[maybe_unused]] std::size_t i, [[maybe_unused]] LightSurface& surface) const override {
+        if constexpr (kIsSurface<Light>) Kind::add_surface(lights[i], surface);
+    }
     double hit(std::size_t i, const SightRay& ray) const override { return Kind::hit(lights[i], ray); }
     std::string describe(std::size_t begin, std::size_t end, double scene_radius) const override {
         return Kind::describe(std::span(lights).subspan(begin, end - begin), scene_radius);

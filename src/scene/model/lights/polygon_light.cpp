@@ -94,6 +94,14 @@ const bool* Kind::two_sided(const PolygonLight& light) { return &light.two_sided
 
 void Kind::add_mesh(const PolygonLight& /*light*/, LightMesh& /*mesh*/) {}
 
+void Kind::add_surface(const PolygonLight& light, LightSurface& surface) {
+    const auto count = static_cast<std::uint32_t>(light.vertices.size());
+    surface.positions.assign(light.vertices.begin(), light.vertices.end());
+    surface.normals.assign(count, {0, 0, 0});
+    surface.uvs.assign(count, {0, 0});
+    for (std::uint32_t i = 1; i + 1 < count; ++i) surface.triangles.push_back({{0, i, i + 1}});
+}
+
 double Kind::hit(const PolygonLight& light, const SightRay& ray) {
     constexpr double kMiss = std::numeric_limits<double>::infinity();
     const std::vector<Double3> p = corners(light);

@@ -86,6 +86,7 @@ struct LightKind<PolygonLight> {
     static bool same_shape(const PolygonLight& a, const PolygonLight& b);
     static const bool* two_sided(const PolygonLight& light);
     static void add_mesh(const PolygonLight& light, LightMesh& mesh);
+    static void add_surface(const PolygonLight& light, LightSurface& surface);
     static double hit(const PolygonLight& light, const SightRay& ray);
     static std::string describe(std::span<const PolygonLight> lights, double scene_radius);
     static std::string rig_field(const PolygonLight& light);

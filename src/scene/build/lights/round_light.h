@@ -1,0 +1,16 @@
+#pragma once
+/// Makes the round lights of the model from spheres and disks that emit.
+
+#include "scene/build/build_shape.h"
+
+namespace nusselt::scene {
+
+/// Whether a shape at this place is a round light: whole spheres and disks that emit, unless they are far flatter or longer than
+/// wide. Disks that emit an image or have a profile become polygons instead, and so do spheres that emit an image.
+bool becomes_round_light(const Geometry& geometry, const Emission& emission,
+                         const Transform& world_from_object);
+
+/// Makes a round light and its surface in world space. \param placed a shape that becomes one
+BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words);
+
+} // namespace nusselt::scene
