@@ -66,7 +66,8 @@ NUSSELT_HD inline Vec3<Real> albedo_for_mis(const Vec3<Real>& diffuse_albedo) no
 /// surface count, with a BRDF of zero.
 ///
 /// \tparam Real       float, double, long double or a pack: one light and surface point per lane.
-/// \tparam Light      ConvexPolygon<Real, N>, LineSegment<Real> or Cylinder<Real>.
+/// \tparam Light      ConvexPolygon<Real, N>, LineSegment<Real>, Cylinder<Real>, Sphere<Real>, Disk<Real>, Ellipse<Real> or
+///                    Ellipsoid<Real>.
 /// \tparam Brdf       see GlossySurface.
 /// \tparam Strategies see strategies.h.
 template <class Real, class Light, class Brdf = Frostbite<Real>, class Strategies = ProjectedSolidAngleAndLtc>
@@ -170,7 +171,7 @@ struct WorldLightSamples {
 
 /// Everything in one call: an unbiased estimate of the light that a point of a surface reflects, from two samples. It is
 /// the sum over both of radiance (visibility shadowed + constant).
-/// \param light     ConvexPolygon, Cylinder or LineSegment in world space; the emission of lines is radiance times radius.
+/// \param light     ConvexPolygon, Cylinder, LineSegment or a round light in world space; the emission of lines is radiance times radius.
 /// \param table     of the specular Frostbite BRDF.
 /// \param heuristic such as ClampedOptimalHeuristic<Real>{0.5}.
 /// \param u         two independent points of [0, 1)^2; linear lights use x only.

@@ -1,6 +1,8 @@
 #pragma once
 /// Pairs of techniques: one for the diffuse component of a surface, one for the specular component.
 
+#include <nusselt/cones/cone_ltc.h>
+#include <nusselt/cones/cone_projected_solid_angle.h>
 #include <nusselt/estimate/surface.h>
 #include <nusselt/sampling/cylinder_ltc.h>
 #include <nusselt/sampling/cylinder_projected_solid_angle.h>
@@ -55,6 +57,38 @@ struct ProjectedSolidAngleAndLtc : CosineMeasures {
     template <class Real, class Surface>
     NUSSELT_HD static auto specular(const Cylinder<Real>& light, const Surface& surface) noexcept {
         return CylinderLtc<Real>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const Sphere<Real>& light, const Surface& /*surface*/) noexcept {
+        return ConeProjectedSolidAngle<Real, Sphere>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const Sphere<Real>& light, const Surface& surface) noexcept {
+        return ConeLtc<Real, Sphere>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const Disk<Real>& light, const Surface& /*surface*/) noexcept {
+        return ConeProjectedSolidAngle<Real, Disk>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const Disk<Real>& light, const Surface& surface) noexcept {
+        return ConeLtc<Real, Disk>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const Ellipse<Real>& light, const Surface& /*surface*/) noexcept {
+        return ConeProjectedSolidAngle<Real, Ellipse>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const Ellipse<Real>& light, const Surface& surface) noexcept {
+        return ConeLtc<Real, Ellipse>(light, surface.lobe);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto diffuse(const Ellipsoid<Real>& light, const Surface& /*surface*/) noexcept {
+        return ConeProjectedSolidAngle<Real, Ellipsoid>(light);
+    }
+    template <class Real, class Surface>
+    NUSSELT_HD static auto specular(const Ellipsoid<Real>& light, const Surface& surface) noexcept {
+        return ConeLtc<Real, Ellipsoid>(light, surface.lobe);
     }
 };
 

@@ -4,6 +4,7 @@
 #include "render_cpu/lights/line_records.h"
 #include "render_cpu/lights/point_records.h"
 #include "render_cpu/lights/polygon_records.h"
+#include "render_cpu/lights/round_records.h"
 
 namespace nusselt::render_cpu {
 
@@ -12,6 +13,9 @@ std::span<const LightKernel> light_kernels() {
         {make_polygon_records,
          {polygon_code(LaneCount<4>()), polygon_code(LaneCount<8>()), polygon_code(LaneCount<16>())},
          true},
+        {make_round_records,
+         {round_code(LaneCount<4>()), round_code(LaneCount<8>()), round_code(LaneCount<16>())},
+         false},
         {make_line_records,
          {line_code(LaneCount<4>()), line_code(LaneCount<8>()), line_code(LaneCount<16>())},
          false},

@@ -61,7 +61,7 @@ void warn_of_surface(const ShapeDescription& shape, const RoundLight& light, int
     const std::string pieces = light.model == RoundModel::ellipse
                                    ? std::to_string(kSidesOfEllipse * sides) + " x 1"
                                    : std::to_string(sides) + " x " + std::to_string(sides / 2);
-    warnings.add(shape.origin, std::string(shape.kind) + " that emits",
+    warnings.add(shape.origin, "surfaces of round lights",
                  subject_of(shape) + ": its surface is approximated by " + pieces +
                      " flat pieces; its light is exact");
 }
