@@ -23,7 +23,8 @@ bool sees_inner_side(const render_cpu::RoundRecord& record, const scene::Float3&
                      const scene::Float3& direction) noexcept {
     if (record.shape == render_cpu::RoundShape::disk || record.shape == render_cpu::RoundShape::ellipse)
         return !(dot(to_vec(record.normal), to_vec(direction)) < 0);
-    return squared_distance_inside(record, to_vec(origin)) < 1;
+    const Vec3<float> unit = in_unit_sphere(record, to_vec(origin) - to_vec(record.center));
+    return dot(unit, unit) < 1;
 }
 
 scene::Float3 emission(const render_cpu::LightSet& lights, std::int32_t index, const scene::Float3& origin,

@@ -50,62 +50,94 @@ inline Real highest_point(const Ellipsoid<Real>& light) noexcept {
                                  squared_height(light.axis[2]));
 }
 
-inline void shrink(const Real& share, Sphere<Real>& light) noexcept { light.radius = share * light.radius; }
-inline void shrink(const Real& share, Ellipsoid<Real>& light) noexcept {
-    for (Vector& axis : light.axis) axis = share * axis;
+inline void scale(const Real& factor, Sphere<Real>& light) noexcept { light.radius = factor * light.radius; }
+inline void scale(const Real& factor, Ellipsoid<Real>& light) noexcept {
+    for (Vector& axis : light.axis) axis = factor * axis;
 }
 
-/// The squared distance of points from the centre, in the space of the unit sphere. \param p in world space
+/// A vector in the space of the unit sphere of a solid light.
 template <class R>
-R squared_distance_inside(const render_cpu::RoundRecord& record, const Vec3<R>& p) noexcept {
-    const Vec3<R> offset = p - broadcast<R>(to_vec(record.center));
-    const auto row = [&](const scene::Float3& inverse) { return dot(broadcast<R>(to_vec(inverse)), offset); };
-    const Vec3<R> unit{row(record.inverse[0]), row(record.inverse[1]), row(record.inverse[2])};
-    return dot(unit, unit);
+Vec3<R> in_unit_sphere(const render_cpu::RoundRecord& record, const Vec3<R>& v) noexcept {
+    const auto row = [&](const scene::Float3& inverse) { return dot(broadcast<R>(to_vec(inverse)), v); };
+    return {row(record.inverse[0]), row(record.inverse[1]), row(record.inverse[2])};
 }
 
-/// The points that lie on a side that emits. From inside a solid light, its surface moves inwards into the triangles of the
-/// scene, which shadow rays would hit. Points between both are dark.
 template <template <class> class Light>
-LaneMask facing_lanes(const render_cpu::RoundRecord& record, const Surface& surface,
-                      Light<Real>& light) noexcept {
+inline constexpr bool kIsFlat = std::is_same_v<LightView<Light<Real>>, FlatLightView<Real>>;
+
+/// A light in shading space.
+template <template <class> class Light>
+struct LocalRound : Light<Real> {
+    const render_cpu::RoundRecord* record;
+    LaneMask inside; ///< points that a solid light surrounds
+
+    /// From inside, where all directions lead to the light, its triangles in the scene come a little before it. Shadow rays have
+    /// to end before these: where they leave the shell.
+    void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
+        if constexpr (!kIsFlat<Light>) {
+            if (!any(inside)) return;
+            const Vector origin =
+                in_unit_sphere(*record, surface.position - broadcast<Real>(to_vec(record->center)));
+            const Vector direction = in_unit_sphere(*record, surface.frame.to_world(sample.wi));
+            const Real a = dot(direction, direction);
+            const Real half = dot(origin, direction);
+            const Real shell(record->shell);
+            const Real distance = length(origin);
+            const Real root = half * half - a * ((distance - shell) * (distance + shell));
+            // Rays between triangles and shell are short.
+            constexpr float kShort = 1e-3f;
+            const Real way = max(sqrt(max(root, Real(0))) - half, Real(kShort) * sqrt(a));
+            sample.p = select(inside, (way / a) * sample.wi, sample.p);
+        }
+    }
+};
+
+/// Finds the points that lie on a side that emits.
+/// \param on_light points on the triangles of the light
+template <template <class> class Light>
+LaneMask facing_lanes(const Surface& surface, LaneMask on_light, LocalRound<Light>& light) noexcept {
+    const render_cpu::RoundRecord& record = *light.record;
     // Comparisons with NaN are false. Negated, they keep NaN, so that it is counted.
-    if constexpr (std::is_same_v<LightView<Light<Real>>, FlatLightView<Real>>) {
-        if (record.emits_inwards != 0) return LaneMask(true);
+    if constexpr (kIsFlat<Light>) {
+        if (record.emits_inwards != 0) return !on_light;
         const Vector normal = surface.frame.to_local(broadcast<Real>(to_vec(record.normal)));
-        return !(dot(normal, light.center) >= Real(0));
+        return !on_light & !(dot(normal, light.center) >= Real(0));
     } else {
-        const Real squared = squared_distance_inside(record, surface.position);
-        const LaneMask outside = !(squared < Real(1));
-        const LaneMask inside = squared < Real(record.shell * record.shell);
+        const Vector unit = in_unit_sphere(record, surface.position - broadcast<Real>(to_vec(record.center)));
+        // Rounding puts corners of triangles to either side of the light: their front decides.
+        const Vector normal = in_unit_sphere(record, surface.geometric_normal);
+        const LaneMask faces_inwards = dot(normal, unit) < Real(0);
+        light.inside = (on_light & faces_inwards) | (!on_light & (dot(unit, unit) < Real(1)));
+        const LaneMask outside = !on_light & !light.inside;
         if (record.emits_inwards == 0) return outside;
-        shrink(select(outside, Real(1), Real(record.shell)), light);
-        return record.emits_outwards != 0 ? outside | inside : inside;
+        // A little larger, so that those corners are inside.
+        constexpr float kMargin = 1.001f;
+        scale(select(light.inside, Real(kMargin), Real(1)), light);
+        return record.emits_outwards != 0 ? outside | light.inside : light.inside;
     }
 }
 
 /// A kind of light as point_samples.h describes it. \tparam Light of the library
 template <template <class> class Light>
 struct RoundLight {
-    using Shape = Light<Real>;
+    using Shape = LocalRound<Light>;
 
     static LocalLight<Shape> local(const ReflectedLight& reflected, const render_cpu::LightSet& lights,
                                    std::int32_t index) noexcept {
         const render_cpu::RoundRecord& record = round_record(lights, index);
         const Surface& surface = reflected.surface();
-        Shape shape = to_shading_space(world(record, static_cast<const Light<float>*>(nullptr)),
-                                       surface.position, surface.frame);
+        Shape shape{to_shading_space(world(record, static_cast<const Light<float>*>(nullptr)),
+                                     surface.position, surface.frame),
+                    &record, LaneMask(false)};
         const std::int32_t number = lights.first + index;
-        // A convex light does not light itself, but its triangles lie behind its surface.
-        LaneMask lit = reflected.lanes() & !reflected.on_light(number);
-        lit &= facing_lanes<Light>(record, surface, shape);
+        LaneMask lit = reflected.lanes() & facing_lanes<Light>(surface, reflected.on_light(number), shape);
         lit &= !(highest_point(shape) <= Real(0));
         return {shape, lit, broadcast<Real>(to_vec(record.radiance)), static_cast<std::uint32_t>(number)};
     }
 
     /// By area where that is a technique, else by solid angle.
     static auto technique(TechniqueTag<render::Technique::area>, const Shape& shape) noexcept {
-        if constexpr (std::is_same_v<LightView<Shape>, FlatLightView<Real>>)
+        if constexpr (kIsFlat<Light>)
             return EllipseArea<Real, Light>(shape);
         else
             return ConeSolidAngle<Real, Light>(shape);
