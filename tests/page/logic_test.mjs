@@ -111,6 +111,7 @@ test("a program that compiles holds frames back", () => {
 const head = `Scale -1 1 1 LookAt 0 1 4 0 1 0 0 1 0 Camera "perspective" "float fov" 40 WorldBegin
 MakeNamedMaterial "m" "string type" "diffuse" "rgb reflectance" [ 1 1 1 ] NamedMaterial "m" `;
 const panel = `AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] `;
+const line = `AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] Shape "line" "point3 p0" [ 0 0 0 ]`;
 const read = text => readScene(new Map([["scene.pbrt", text]]), "scene.pbrt");
 
 test("scenes are read, or an error says what is wrong", () => {
@@ -128,7 +129,7 @@ test("scenes are read, or an error says what is wrong", () => {
         [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 x ]`, /x is not a number/],
         [`Shape "polygon"`, /point3 P/],
         [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 ]`, /three vertices/],
-        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "integer indices" [ 0 1 3 ]`, /no vertex/],
+        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "integer indices" [ 0 1 3 ]`, /at most 2, not 3/],
         [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "float alpha" 0.5`, /alpha/],
         [`Shape "sphere" "float radius" 1`, /sphere/],
         [`Translate 1 2`, /not a number/],
@@ -140,9 +141,68 @@ test("scenes are read, or an error says what is wrong", () => {
         [`PixelFilter "box" "float xradius" 1 "float yradius" 1`, /0.5/],
         [`Include "missing.pbrt"`, /missing.pbrt/],
         [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0`, /\]/],
+        [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 2 0 0 ]`, /area between three corners is zero/],
+        [`Scale 0 1 1 Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0 ]`, /area between three corners is zero/],
+        [`Shape "polygon" "point3 P" [ ]`, /three numbers/],
+        [`Shape "polygon" "point3" [ 0 0 0 1 0 0 1 1 0 ]`, /a type and a name/],
+        [`Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "point3 P" [ 0 0 0 1 0 0 1 1 0 ]`, /"P" is there twice/],
+        [`Shape "polygon" "point3 P"`, /the end of the file stands in place of a value/],
+        [`Shape "polygon" "point3 P" ]`, /\] stands in place/],
+        [`Shape "polygon "point3 P" [ 0 0 0 1 0 0 1 1 0 ]`, /type "polygon " are not supported/],
+        [`Shape "polygon`, /" is not a text in quotes/],
+        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ]`, /needs "integer indices"/],
+        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "integer indices" [ ]`, /three numbers/],
+        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "integer indices" [ 0 1 -1 ]`, /at least 0/],
+        [`Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 1 1 0 ] "integer indices" [ 0 1 .5 ]`, /whole number/],
+        [`${line} "float radius" 0.1 "point3 p1" [ 0 0 0 ]`, /ends of the line are the same/],
+        [`${line} "float radius" 0.1`, /"point3 p1" needs one vector, not 0/],
+        [`${line} "float radius" 0.1 "point3 p1" [ 0 0 1 0 0 2 ]`, /"point3 p1" needs one vector, not 2/],
+        [`${line} "point3 p1" [ 0 0 1 ]`, /"float radius" needs one number, not 0/],
+        [`${line} "point3 p1" [ 0 0 1 ] "float radius" -0.1`, /"float radius" must be above 0, not -0.1/],
+        [`${line} "point3 p1" [ 0 0 1 ] "float radius" 0`, /must be above 0, not 0/],
+        [`${line} "point3 p1" [ 0 0 1 ] "float radius" [ 1 2 ]`, /one number, not 2/],
+        [`${line} "point3 p1" [ 0 0 1 ] "float radius" 1 "bool finite" maybe`, /true or false, not maybe/],
+        [`AreaLightSource "diffuse" "rgb L" [ -1 1 1 ]`, /at least 0 and at most 1e\+30, not -1/],
+        [`AreaLightSource "diffuse" "rgb L" [ 2e30 1 1 ]`, /at most 1e\+30/],
+        [`MakeNamedMaterial "m" "string type" "diffuse"`, /there is a material "m" already/],
+        [`MakeNamedMaterial "n" "string type" diffuse`, /a text in quotes, not diffuse/],
+        [`MakeNamedMaterial "n" "string type" "diffuse" "rgb reflectance" [ 1.5 1 1 ]`, /at most 1, not 1.5/],
+        [`MakeNamedMaterial "n" "string type" "coateddiffuse" "float roughness" -1`, /at least 0, not -1/],
+        [`MakeNamedMaterial "n" "string type" "coateddiffuse" "float eta" 0`, /above 0, not 0/],
+        [`MakeNamedMaterial "n" "string type" "coateddiffuse" "bool remaproughness" 1`, /true or false, not 1/],
+        [`MakeNamedMaterial "n" "string type" "conductor" "rgb eta" [ 1 1 1 ]`, /"rgb k" needs one vector, not 0/],
+        [`Rotate 30 0 0 0`, /the axis is zero/],
+        [`Translate 1e38 0 0`, /1e38 is too large/],
+        [`Translate 8e37 0 0 Translate 8e37 0 0 Shape "polygon" "point3 P" [ 0 0 0 1 0 0 1 1 0 ]`, /too far away/],
+        [`LookAt 0 1 4 0 1 4 0 1 0`, /viewing direction is zero/],
+        [`LookAt 0 1 4 0 2 4 0 1 0`, /parallel to the up vector/],
+        [`Camera "perspective" "float fov" 180`, /above 0 and below 180, not 180/],
+        [`Camera "perspective" "float fov" 0`, /above 0 and below 180, not 0/],
+        [`Include "scene.pbrt"`, /scene.pbrt includes itself/],
+        ...["NaN", "Infinity", "-Infinity", "0x10", "1_000", "1e", ".", "+", "1,5", '"1"', "1f", "0b1", "1e999"]
+            .map(number => [`Translate 0 0 ${number}`, /is not a number|is too large/]),
     ];
     for (const [text, message] of wrong) assert.throws(() => read(head + panel + text), message, text);
-    assert.throws(() => read(panel), /NamedMaterial/);
+    assert.throws(() => read("WorldBegin " + panel), /NamedMaterial/);
+});
+
+test("numbers are those of C++, and messages say in which line they are", () => {
+    for (const [number, value] of [["1", 1], ["+1.", 1], [".5", 0.5], ["-2.5E+1", -25], ["1e-2", 0.01]]) {
+        const { polygons } = read(`${head}Translate ${number} 0 0 ${panel}`);
+        assert.equal(polygons[0].vertices[0][0], value);
+    }
+    assert.throws(() => read(`${head}\n# a " comment\r\n${panel}\n  "float alpha"\n   NaN`),
+        { message: 'scene.pbrt:5: Shape: the parameter "float alpha" is not supported' });
+    assert.throws(() => read(`${head}\n\nShape "polygon" "point3 P" [ 0 0 0\n1 0 0\n1 1 NaN ]`),
+        { message: "scene.pbrt:6: Shape: NaN is not a number" });
+    const files = [["a/b.pbrt", `${head} Include "../c.pbrt"`], ["c.pbrt", "\nWorldEnd"]];
+    assert.throws(() => readScene(new Map(files), "a/b.pbrt"),
+        { message: "c.pbrt:2: WorldEnd: this directive is not supported" });
+    assert.throws(() => readScene(new Map([["a/b.pbrt", `${head}\nInclude "c.pbrt"`]]), "a/b.pbrt"),
+        { message: "a/b.pbrt:3: Include: a/c.pbrt is missing" });
+    assert.throws(() => read("Translate 1 0 0"),
+        { message: "scene.pbrt:1: Translate: transforms before WorldBegin are not supported" });
+    assert.throws(() => read(panel), { message: "scene.pbrt:1: Shape: a WorldBegin is missing before" });
 });
 
 test("scenes of the page have the material of their floor, and lights", () => {

@@ -1,7 +1,9 @@
 /// Reads scenes in the part of pbrt's format, version 4, that the scenes of the page use. Anything else is an error:
 /// the page has to show what the C++ renderer does.
 
-import { Vector, cross, normalize, subtract } from "./vectors";
+import { isInRange } from "./layout";
+import { Parameters, Range, Words } from "./pbrt_words";
+import { Vector, cross, length, normalize, subtract } from "./vectors";
 
 export interface Material {
     readonly name: string;
@@ -75,105 +77,36 @@ function apply(m: Transform, p: Vector): Vector {
     return [row(m[0]), row(m[1]), row(m[2])];
 }
 
-/// What stands behind the name of a parameter.
-interface Parameter {
-    readonly type: string;
-    readonly values: readonly string[];
-}
-
-/// The parameters of a directive. Each is looked at once; the rest are errors, since the image would lack what they
-/// mean.
-class Parameters {
-    /// \param where what messages begin with
-    constructor(private readonly parameters: Map<string, Parameter>, private readonly where: string) {}
-
-    private take(type: string, name: string): readonly string[] | null {
-        const found = this.parameters.get(name);
-        if (found === undefined) return null;
-        this.parameters.delete(name);
-        if (found.type !== type)
-            throw new Error(`${this.where}: "${found.type} ${name}" is not supported, only "${type} ${name}"`);
-        return found.values;
-    }
-
-    /// A text, in quotes or, for the type bool, without.
-    text(type: "string" | "bool", name: string, standard: string): string {
-        const values = this.take(type, name);
-        if (values === null) return standard;
-        if (values.length !== 1) throw new Error(`${this.where}: "${name}" needs one value, not ${values.length}`);
-        return values[0].replace(/^"|"$/g, "");
-    }
-
-    numbers(type: string, name: string): readonly number[] | null {
-        return this.take(type, name)?.map(text => numberOf(text, this.where)) ?? null;
-    }
-
-    number(type: "float" | "integer", name: string, standard: number): number {
-        const values = this.numbers(type, name);
-        if (values === null) return standard;
-        if (values.length !== 1) throw new Error(`${this.where}: "${name}" needs one number, not ${values.length}`);
-        return values[0];
-    }
-
-    vectors(type: string, name: string): Vector[] | null {
-        const values = this.numbers(type, name);
-        if (values === null) return null;
-        if (values.length === 0 || values.length % 3 !== 0)
-            throw new Error(`${this.where}: "${name}" needs three numbers for each vector, not ${values.length}`);
-        const vector = (i: number): Vector => [values[i], values[i + 1], values[i + 2]];
-        return Array.from({ length: values.length / 3 }, (_, i) => vector(3 * i));
-    }
-
-    vector(type: "rgb" | "point3", name: string, standard: Vector): Vector {
-        const vectors = this.vectors(type, name);
-        if (vectors !== null && vectors.length !== 1)
-            throw new Error(`${this.where}: "${name}" needs one vector, not ${vectors.length}`);
-        return vectors?.[0] ?? standard;
-    }
-
-    /// \throws Error for parameters that nobody has looked at
-    finish(): void {
-        for (const [name, { type }] of this.parameters)
-            throw new Error(`${this.where}: the parameter "${type} ${name}" is not supported`);
-    }
-}
-
-function numberOf(text: string, where: string): number {
-    const value = Number(text);
-    if (text === "" || !Number.isFinite(value))
-        throw new Error(`${where}: ${text || "the end of the file"} is not a number`);
-    return value;
-}
-
-/// Strings keep their quotes.
-function tokensOf(text: string): string[] {
-    return text.replace(/#.*$/gm, "").match(/"[^"]*"|\[|\]|[^\s"[\]]+/g) ?? [];
-}
-
 const reflectanceOf = (eta: number, k: number): number => ((eta - 1) ** 2 + k * k) / ((eta + 1) ** 2 + k * k);
 
-function makeMaterial(name: string, parameters: Parameters): Material {
-    const type = parameters.text("string", "type", "");
+const atLeast0: Range = { least: 0 };
+const above0: Range = { least: 0, isOpen: true };
+const from0To1: Range = { least: 0, most: 1 };
+/// As in the C++ renderer.
+const radiances: Range = { least: 0, most: 1e30 };
+
+function makeMaterial(name: string, parameters: Parameters, words: Words): Material {
+    const type = parameters.text("type", "");
     const isGlossy = type === "coateddiffuse" || type === "conductor";
     // By default, pbrt takes the root for alpha; perceptual roughness is the root of that.
-    const given = isGlossy ? parameters.number("float", "roughness", 0) : 1;
-    const remaps = isGlossy && parameters.text("bool", "remaproughness", "true") === "true";
+    const given = isGlossy ? parameters.number("float", "roughness", 0, atLeast0) : 1;
+    const remaps = isGlossy && parameters.flag("remaproughness", true);
     const alpha = given === 0 ? 0.01 : remaps ? Math.sqrt(given) : given;
     const roughness = Math.sqrt(Math.min(Math.max(alpha, 0.001), 1));
     const black: Vector = [0, 0, 0];
     if (type === "conductor") {
-        const eta = parameters.vector("rgb", "eta", black);
-        const k = parameters.vector("rgb", "k", black);
+        const eta = parameters.vector("rgb", "eta", null, above0);
+        const k = parameters.vector("rgb", "k", null, atLeast0);
         const f0: Vector = [reflectanceOf(eta[0], k[0]), reflectanceOf(eta[1], k[1]), reflectanceOf(eta[2], k[2])];
         return { name, isGlossy, diffuse: black, f0, roughness };
     }
-    const diffuse = parameters.vector("rgb", "reflectance", [0.5, 0.5, 0.5]);
+    const diffuse = parameters.vector("rgb", "reflectance", [0.5, 0.5, 0.5], from0To1);
     if (type === "diffuse") return { name, isGlossy, diffuse, f0: black, roughness: 1 };
     if (type === "coateddiffuse") {
-        const f0 = reflectanceOf(parameters.number("float", "eta", 1.5), 0);
+        const f0 = reflectanceOf(parameters.number("float", "eta", 1.5, above0), 0);
         return { name, isGlossy, diffuse, f0: [f0, f0, f0], roughness };
     }
-    throw new Error(`material "${name}": the type "${type}" is not supported`);
+    return words.fail(`material "${name}": the type "${type}" is not supported`);
 }
 
 /// What AttributeBegin stores.
@@ -189,17 +122,21 @@ class Reader {
     private readonly stack: Attributes[] = [];
     private blocks = 0;
     private isMirrored = false;
+    private isInWorld = false;
     private view: View | null = null;
     private fov = 90;
     private readonly materials: Material[] = [];
     private readonly polygons: Polygon[] = [];
     private readonly tubes: Tube[] = [];
+    /// The files that include each other, from the scene to what is being read.
+    private readonly open: string[] = [];
 
     constructor(private readonly files: ReadonlyMap<string, string>) {}
 
-    scene(): Scene {
-        if (this.view === null) throw new Error("the scene has no camera");
-        if (this.stack.length > 0) throw new Error("an AttributeEnd is missing");
+    /// \param path of what has been read, for messages
+    scene(path: string): Scene {
+        if (this.view === null) throw new Error(`${path}: the scene has no camera`);
+        if (this.stack.length > 0) throw new Error(`${path}: an AttributeEnd is missing`);
         return { view: { ...this.view, fov: this.fov }, materials: this.materials, polygons: this.polygons,
             tubes: this.tubes };
     }
@@ -207,158 +144,155 @@ class Reader {
     read(path: string): void {
         const text = this.files.get(path);
         if (text === undefined) throw new Error(`${path} is missing`);
-        const tokens = tokensOf(text);
-        let at = 0;
-        let directive = "";
-        const where = () => `${path}, ${directive}`;
-        const next = () => tokens[at++] ?? "";
-        const name = (): string => {
-            const token = next();
-            if (!/^".*"$/s.test(token))
-                throw new Error(`${where()}: ${token || "the end of the file"} is not a text in quotes`);
-            return token.slice(1, -1);
-        };
-        const number = () => numberOf(next(), where());
-        const vector = (): Vector => [number(), number(), number()];
-        const values = (): string[] => {
-            const first = next();
-            if (first !== "[") return [first];
-            const list: string[] = [];
-            for (let token = next(); token !== "]"; token = next()) {
-                if (token === "") throw new Error(`${where()}: a ] is missing`);
-                list.push(token);
-            }
-            return list;
-        };
-        /// Reads parameters and hands them to a function, which has to look at all of them.
-        const withParameters = <T>(use: (parameters: Parameters) => T): T => {
-            const found = new Map<string, Parameter>();
-            while ((tokens[at] ?? "").startsWith('"')) {
-                const [type, key] = name().split(/\s+/);
-                found.set(key ?? "", { type, values: values() });
-            }
-            const parameters = new Parameters(found, where());
-            const result = use(parameters);
-            parameters.finish();
-            return result;
-        };
-        /// A directive whose first word has to be one that the page can stand for.
-        const only = (supported: string) => {
-            const type = name();
-            if (type !== supported) throw new Error(`${where()}: "${type}" is not supported, only "${supported}"`);
-        };
-        while (at < tokens.length) {
-            directive = next();
-            switch (directive) {
-            // The page has its own resolution and number of samples.
-            case "Film":
-                only("rgb");
-                withParameters(p => [p.number("integer", "xresolution", 0), p.number("integer", "yresolution", 0),
-                    p.text("string", "filename", "")]);
-                break;
-            case "Sampler": only("independent"); withParameters(p => p.number("integer", "pixelsamples", 1)); break;
-            case "PixelFilter":
-                only("box");
-                withParameters(p => this.filter(p.number("float", "xradius", 0.5), p.number("float", "yradius", 0.5)));
-                break;
-            case "Scale": this.scale(vector()); break;
-            case "LookAt": this.view = { eye: vector(), target: vector(), up: vector(), fov: this.fov }; break;
-            case "Camera": only("perspective"); withParameters(p => this.camera(p)); break;
-            case "WorldBegin": this.state = { ...this.state, transform: identity }; break;
-            case "AttributeBegin":
-                this.stack.push(this.state);
-                this.state = { ...this.state, block: ++this.blocks };
-                break;
-            case "AttributeEnd": this.endAttributes(where()); break;
-            case "Translate": this.transform(translation(vector())); break;
-            case "Rotate": { const degrees = number(); this.transform(rotation(degrees, vector())); break; }
-            case "MakeNamedMaterial": {
-                const key = name();
-                this.materials.push(withParameters(p => makeMaterial(key, p)));
-                break;
-            }
-            case "NamedMaterial": this.useMaterial(name()); break;
-            case "AreaLightSource":
-                only("diffuse");
-                this.state = { ...this.state, radiance: withParameters(p => p.vector("rgb", "L", [1, 1, 1])) };
-                break;
-            case "Shape": { const type = name(); withParameters(p => this.shape(type, p, where())); break; }
-            case "Include": {
-                const parts: string[] = [];
-                for (const part of [...path.split("/").slice(0, -1), ...name().split("/")]) {
-                    if (part === "..") parts.pop();
-                    else parts.push(part);
-                }
-                this.read(parts.join("/"));
-                break;
-            }
-            default: throw new Error(`${path}: ${directive} is not supported`);
-            }
+        this.open.push(path);
+        const words = new Words(path, text);
+        for (let directive = words.nextDirective(); directive !== null; directive = words.nextDirective())
+            this.readDirective(directive, words);
+        this.open.pop();
+    }
+
+    private readDirective(directive: string, words: Words): void {
+        switch (directive) {
+        // The page has its own resolution and number of samples.
+        case "Film":
+            words.only("rgb");
+            words.withParameters(p => [p.number("integer", "xresolution", 0), p.number("integer", "yresolution", 0),
+                p.text("filename", "")]);
+            break;
+        case "Sampler":
+            words.only("independent");
+            words.withParameters(p => p.number("integer", "pixelsamples", 1));
+            break;
+        case "PixelFilter": words.only("box"); words.withParameters(p => this.filter(p, words)); break;
+        case "Scale": this.scale(words.vector(), words); break;
+        case "LookAt": this.lookAt(words); break;
+        case "Camera": words.only("perspective"); words.withParameters(p => this.camera(p, words)); break;
+        case "WorldBegin": this.isInWorld = true; break;
+        case "AttributeBegin":
+            this.stack.push(this.state);
+            this.state = { ...this.state, block: ++this.blocks };
+            break;
+        case "AttributeEnd": this.endAttributes(words); break;
+        case "Translate": this.transform(translation(words.vector()), words); break;
+        case "Rotate": {
+            const degrees = words.number();
+            const axis = words.vector();
+            if (length(axis) === 0) words.fail("the axis is zero");
+            this.transform(rotation(degrees, axis), words);
+            break;
+        }
+        case "MakeNamedMaterial": {
+            const name = words.text();
+            if (this.materials.some(row => row.name === name)) words.fail(`there is a material "${name}" already`);
+            this.materials.push(words.withParameters(p => makeMaterial(name, p, words)));
+            break;
+        }
+        case "NamedMaterial": this.useMaterial(words); break;
+        case "AreaLightSource": {
+            words.only("diffuse");
+            const radiance = words.withParameters(p => p.vector("rgb", "L", [1, 1, 1], radiances));
+            this.state = { ...this.state, radiance };
+            break;
+        }
+        case "Shape": {
+            const type = words.text();
+            if (!this.isInWorld) words.fail("a WorldBegin is missing before");
+            words.withParameters(p => this.shape(type, p, words));
+            break;
+        }
+        case "Include": this.include(words); break;
+        default: words.fail("this directive is not supported");
         }
     }
 
-    private transform(t: Transform): void {
+    private include(words: Words): void {
+        const parts = words.path.split("/").slice(0, -1);
+        for (const part of words.text().split("/")) {
+            if (part === "..") parts.pop();
+            else parts.push(part);
+        }
+        const path = parts.join("/");
+        if (!this.files.has(path)) words.fail(`${path} is missing`);
+        if (this.open.includes(path)) words.fail(`${path} includes itself`);
+        this.read(path);
+    }
+
+    private transform(t: Transform, words: Words): void {
+        // The camera has none but LookAt, and WorldBegin forgets them.
+        if (!this.isInWorld) words.fail("transforms before WorldBegin are not supported");
         this.state = { ...this.state, transform: product(this.state.transform, t) };
     }
 
-    private scale(v: Vector): void {
+    private scale(v: Vector, words: Words): void {
         // Before the camera, only the reflection that makes pbrt's camera space right-handed.
-        if (this.view === null) this.isMirrored = v.join() === "-1,1,1";
-        else this.transform([[v[0], 0, 0, 0], [0, v[1], 0, 0], [0, 0, v[2], 0]]);
+        if (this.view === null && v.join() === "-1,1,1") this.isMirrored = true;
+        else this.transform([[v[0], 0, 0, 0], [0, v[1], 0, 0], [0, 0, v[2], 0]], words);
     }
 
-    private filter(x: number, y: number): void {
-        if (x !== 0.5 || y !== 0.5) throw new Error("filters must be boxes of one pixel, with a radius of 0.5");
+    private lookAt(words: Words): void {
+        const [eye, target, up] = [words.vector(), words.vector(), words.vector()];
+        if (length(cross(subtract(target, eye), up)) === 0)
+            words.fail("the viewing direction is zero or parallel to the up vector");
+        this.view = { eye, target, up, fov: this.fov };
     }
 
-    private camera(parameters: Parameters): void {
-        if (!this.isMirrored) throw new Error("cameras must stand after Scale -1 1 1");
-        this.fov = parameters.number("float", "fov", 90);
+    private filter(parameters: Parameters, words: Words): void {
+        for (const name of ["xradius", "yradius"])
+            if (parameters.number("float", name, 0.5) !== 0.5)
+                words.fail("filters must be boxes of one pixel, with a radius of 0.5");
     }
 
-    private endAttributes(where: string): void {
+    private camera(parameters: Parameters, words: Words): void {
+        if (!this.isMirrored) words.fail("cameras must stand after Scale -1 1 1");
+        this.fov = parameters.number("float", "fov", 90, { least: 0, most: 180, isOpen: true });
+    }
+
+    private endAttributes(words: Words): void {
         const before = this.stack.pop();
-        if (before === undefined) throw new Error(`${where}: there is no AttributeBegin before`);
+        if (before === undefined) return words.fail("there is no AttributeBegin before");
         this.state = before;
     }
 
-    private useMaterial(name: string): void {
+    private useMaterial(words: Words): void {
+        const name = words.text();
         const material = this.materials.findIndex(row => row.name === name);
-        if (material < 0) throw new Error(`there is no material "${name}"`);
+        if (material < 0) words.fail(`there is no material "${name}"`);
         this.state = { ...this.state, material };
     }
 
-    private shape(type: string, parameters: Parameters, where: string): void {
+    private shape(type: string, parameters: Parameters, words: Words): void {
         const { transform, material, radiance, block } = this.state;
-        const points = (name: string): Vector[] => {
-            const vectors = parameters.vectors("point3", name);
-            if (vectors === null) throw new Error(`${where}: a ${type} needs "point3 ${name}"`);
-            return vectors.map(p => apply(transform, p));
+        const point = (p: Vector): Vector => {
+            const moved = apply(transform, p);
+            if (!moved.every(isInRange)) words.fail(`the point (${moved.join(", ")}) is too far away`);
+            return moved;
         };
-        const needMaterial = () => {
-            if (material < 0) throw new Error(`${where}: a ${type} needs a NamedMaterial before`);
+        const points = (): Vector[] => {
+            if (material < 0) words.fail(`a ${type} needs a NamedMaterial before`);
+            return (parameters.vectors("point3", "P") ?? words.fail(`a ${type} needs "point3 P"`)).map(point);
+        };
+        const add = (vertices: readonly Vector[]) => {
+            if (!normalOf(vertices).every(Number.isFinite)) words.fail("the area between three corners is zero");
+            this.polygons.push({ vertices, material, radiance, block });
         };
         if (type === "polygon") {
-            needMaterial();
-            const vertices = points("P");
-            if (vertices.length < 3) throw new Error(`${where}: a polygon needs three vertices`);
-            this.polygons.push({ vertices, material, radiance, block });
+            const vertices = points();
+            if (vertices.length < 3) words.fail("a polygon needs three vertices");
+            add(vertices);
         } else if (type === "trianglemesh") {
-            needMaterial();
-            const corners = points("P");
-            for (const indices of parameters.vectors("integer", "indices") ?? []) {
-                const vertices = indices.map(i => corners[i]);
-                if (vertices.includes(undefined as unknown as Vector))
-                    throw new Error(`${where}: the mesh has no vertex of an index`);
-                this.polygons.push({ vertices, material, radiance, block });
-            }
+            const corners = points();
+            const indices = parameters.vectors("integer", "indices", { least: 0, most: corners.length - 1 }) ??
+                words.fail('a trianglemesh needs "integer indices"');
+            for (const triangle of indices) add(triangle.map(i => corners[i]));
         } else if (type === "line") {
-            const isCylinder = parameters.text("bool", "finite", "true") !== "false";
-            const radius = parameters.number("float", "radius", 0);
-            const [begin, end] = [points("p0")[0], points("p1")[0]];
+            const isCylinder = parameters.flag("finite", true);
+            const radius = parameters.number("float", "radius", null, above0);
+            const begin = point(parameters.vector("point3", "p0", null));
+            const end = point(parameters.vector("point3", "p1", null));
+            if (length(subtract(begin, end)) === 0) words.fail("the ends of the line are the same");
             this.tubes.push({ begin, end, radius, radiance: radiance ?? [0, 0, 0], isCylinder, block });
         } else {
-            throw new Error(`${where}: shapes of type "${type}" are not supported`);
+            words.fail(`shapes of type "${type}" are not supported`);
         }
     }
 }
@@ -369,7 +303,7 @@ class Reader {
 export function readScene(files: ReadonlyMap<string, string>, path: string): Scene {
     const reader = new Reader(files);
     reader.read(path);
-    return reader.scene();
+    return reader.scene(path);
 }
 
 /// The normal of a polygon, right-handed with its winding.
