@@ -234,6 +234,7 @@ class Controls(LivePageTest):
             "scene": self.check_scene,
             "size": self.check_size,
             "link": self.check_link,
+            "bring": self.check_bring,
             "reset": self.check_reset,
         }
         self.open(f"width={WIDTH}&reference=0&right=solid_angle&frames=2")
@@ -310,6 +311,33 @@ class Controls(LivePageTest):
         before = self.image(2)
         self.open(self.browser.script("return window.copied").split("#")[1])
         self.assertEqual(before, self.image(2))
+
+    def check_bring(self):
+        """Lights behind the camera and beside the image, by the button, by Enter and by dragging."""
+        places = """return [...document.querySelectorAll('.handle')].map(handle => [handle.style.left, handle.style.top])
+            .map(place => place.map(share => parseFloat(share)))"""
+        moved = re.sub("lamps=[^&]*&?", "", self.browser.script("return location.hash.slice(1)")) + "&lamps=0,0,9,0,0,1;-9,0,0,0,0,1"
+        self.go(moved)
+        self.assertEqual([[50, 98], [2, True]], [self.browser.script(places)[0], [self.browser.script(places)[1][0], True]])
+        self.changes("bring", lambda: self.browser.click(self.find("#bring")))
+        for left, top in self.browser.script(places):
+            self.assertTrue(9 < left < 91 and 9 < top < 91, (left, top))
+        link = self.browser.script("return location.hash")
+        self.browser.click(self.find("#bring"))
+        self.assertEqual(link, self.browser.script("return location.hash"), "all are there")
+        self.go(moved)
+        self.browser.press(self.find("#handle-0"), Keys.ENTER)
+        self.assertGreater(90.1, self.browser.script(places)[0][1])
+        # A pointer leads a light from behind the camera to where it goes.
+        self.go(moved)
+        handle = self.find("#handle-0")
+        self.browser.show(handle)
+        before = self.browser.script(places)[0]
+        pointer = self.browser.actions().move_to_element(handle).click_and_hold()
+        pointer.move_by_offset(0, -5).move_by_offset(-100, -100).release().perform()
+        self.browser.settle()
+        left, top = self.browser.script(places)[0]
+        self.assertTrue(left < before[0] - 5 and top < before[1] - 5, (before, left, top))
 
     def check_reset(self):
         self.changes("reset", lambda: self.browser.click(self.find("#reset")))

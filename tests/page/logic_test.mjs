@@ -9,7 +9,8 @@ import { readScene } from "../../web/library/pbrt";
 import { polygonUniforms } from "../../web/library/light_uniforms";
 import { heuristics, samplers, techniques } from "../../web/library/techniques";
 import { unrollLoops } from "../../web/library/unroll";
-import { isUsable, orbit, pan, zoom, cameraOf } from "../../web/page/camera";
+import { add } from "../../web/library/vectors";
+import { cameraOf, isUsable, orbit, pan, project, stepIntoView, zoom } from "../../web/page/camera";
 import { Pacing } from "../../web/page/pacing";
 import { initialState, linkOf, stateOf } from "../../web/page/state";
 
@@ -61,6 +62,18 @@ test("keys and pointers stay among usable views, also after links have rounded t
         assert.ok(isUsable({ ...now, ...camera }), String(now.eye));
         now = { ...now, ...camera };
     }
+});
+
+test("lights are brought back to the nearest place in the image", () => {
+    const camera = cameraOf(view, 16 / 9);
+    const brought = p => add(p, stepIntoView(camera, p, 4));
+    const close = (a, b) => a.forEach((x, k) => assert.ok(Math.abs(x - b[k]) < 1e-9, `${a} in place of ${b}`));
+    close(brought([0.5, 1.2, 0]), [0.5, 1.2, 0]);
+    close(brought([0, 1, 9]), [0, 1, 0]); // behind
+    close(brought([0, 1, 4]), [0, 1, 0]); // at the eye
+    close(brought([9, 1, 0]), [0.8 * 4 * camera.tangentX, 1, 0]);
+    for (const p of [[-30, 60, 80], [1e6, -1e6, 4], [0, -5, 3.9]])
+        assert.ok(project(camera, brought(p)).every(share => share > 0.09 && share < 0.91), String(p));
 });
 
 test("frames that draw nothing say nothing about a device", () => {

@@ -60,6 +60,26 @@ export function project(camera: Camera, p: Vector): readonly [number, number] | 
         0.5 - 0.5 * dot(v, camera.up) / (depth * camera.tangentY)];
 }
 
+/// The share of the image from its centre that lights are brought back to.
+const innerPart = 0.8;
+
+/// The step to the nearest place in the image [m]: none from a place that is there.
+/// \param distance along the view for what is behind the camera [m]
+export function stepIntoView(camera: Camera, p: Vector, distance: number): Vector {
+    if ((project(camera, p) ?? [-1]).every(share => share >= 0 && share <= 1)) return [0, 0, 0];
+    const v = subtract(p, camera.eye);
+    const depth = dot(v, camera.forward);
+    const newDepth = depth > near ? depth : distance;
+    const inside = (x: number, tangent: number) => {
+        const most = innerPart * tangent * newDepth;
+        return Math.min(Math.max(x, -most), most);
+    };
+    const [x, y] = [dot(v, camera.right), dot(v, camera.up)];
+    const across = add(times(inside(x, camera.tangentX) - x, camera.right),
+        times(inside(y, camera.tangentY) - y, camera.up));
+    return add(across, times(newDepth - depth, camera.forward));
+}
+
 /// What keys and pointers can reach: cosines with the vertical axis, distances of eye and target, and coordinates [m].
 const steepest = 0.98;
 const nearest = 0.3;

@@ -13,6 +13,7 @@ export interface Actions {
     change(edit: (state: State) => void): void;
     /// Another scene, with its own view and lamps.
     chooseScene(name: string): void;
+    bringLampsIntoView(): void;
     shaderText(side: Side): string;
     link(): string;
 }
@@ -149,6 +150,7 @@ export function makeControls(actions: Actions): Controls {
         state.lamps = [];
         state.roughness = null;
     }));
+    const bring = button("Bring lights into view", { id: "bring" }, actions.bringLampsIntoView);
     const link = button("Copy a link", { id: "link" }, () => void copyText(actions.link(), message, "the link"));
     const lampFields = element("div", { class: "row" });
     let lamps: Control<LampState>[] = [];
@@ -158,7 +160,7 @@ export function makeControls(actions: Actions): Controls {
             reference.node, shows.node),
         element("div", { class: "row" }, samples.node, roughness.node, exposure.node),
         lampFields,
-        element("div", { class: "row" }, scene.node, size.node, reset, link, message));
+        element("div", { class: "row" }, scene.node, size.node, bring, reset, link, message));
     return {
         node,
         showFailures(failures) {

@@ -63,6 +63,7 @@ class Page {
             change,
             chooseScene: name => this.change(state => Object.assign(state,
                 { scene: name, camera: null, lamps: [], roughness: null })),
+            bringLampsIntoView: () => this.stage.bringLampsIntoView(),
             shaderText: side => this.shaderText(side),
             link: () => this.link(),
         });

@@ -1,8 +1,8 @@
 /// The image with its divider and the handles of the lamps: pointers, touch and keys.
 
 import { View } from "../library/pbrt";
-import { Vector, add, dot, subtract, times } from "../library/vectors";
-import { Camera, cameraOf, orbit, pan, project, zoom } from "./camera";
+import { Vector, add, dot, length, subtract, times } from "../library/vectors";
+import { Camera, cameraOf, orbit, pan, project, stepIntoView, zoom } from "./camera";
 import { element } from "./dom";
 import { Lamp } from "./lamps";
 import { LampState, State, untouchedLamp } from "./state";
@@ -25,6 +25,13 @@ function moveLamp(state: State, index: number, camera: Camera, right: number, up
     const lamp = state.lamps[index] ?? untouchedLamp;
     const step = add(add(times(right, camera.right), times(up, camera.up)), times(away, camera.forward));
     setLamp(state, index, { ...lamp, move: add(lamp.move, step) });
+}
+
+function bringIntoView(state: State, index: number, lamp: Lamp, view: View): void {
+    const own = state.lamps[index] ?? untouchedLamp;
+    const distance = length(subtract(view.target, view.eye));
+    const step = stepIntoView(cameraOf(view, aspect), add(lamp.center, own.move), distance);
+    if (length(step) > 0) setLamp(state, index, { ...own, move: add(own.move, step) });
 }
 
 function turnLamp(state: State, index: number, turn: number, tilt: number): void {
@@ -72,6 +79,8 @@ export interface Stage {
     readonly canvas: HTMLCanvasElement;
     show(state: State, labels: readonly [string, string]): void;
     setLamps(lamps: readonly Lamp[]): void;
+    /// Moves lamps outside of the image to the nearest place in it.
+    bringLampsIntoView(): void;
 }
 
 export function makeStage(actions: StageActions): Stage {
@@ -128,10 +137,13 @@ export function makeStage(actions: StageActions): Stage {
         const handle = element("div", {
             role: "application", tabindex: 0, class: "handle", id: `handle-${index}`,
             "aria-label": `${lamp.label} ${index + 1}: arrow keys move it, Page Up and Page Down move it in depth, ` +
-                "with Shift arrows turn it, Home resets it",
+                "with Shift arrows turn it, Enter brings it into view, Home resets it",
             title: `${lamp.label}: drag to move, with Shift to turn`,
         });
         onDrag(handle, node, (dx, dy, event) => {
+            // Behind the camera, a lamp would go the other way.
+            if (project(camera(), positionOf(lamp, index)) === null)
+                actions.change(state => bringIntoView(state, index, lamp, actions.view()));
             const scale = widthAt(positionOf(lamp, index));
             actions.change(state => {
                 if (event.shiftKey) turnLamp(state, index, 360 * dx, 360 * dy);
@@ -141,9 +153,10 @@ export function makeStage(actions: StageActions): Stage {
         handle.addEventListener("keydown", event => {
             const arrow = arrowOf(event.key);
             const away = event.key === "PageUp" ? 1 : event.key === "PageDown" ? -1 : 0;
-            if (arrow === null && away === 0 && event.key !== "Home") return;
+            if (arrow === null && away === 0 && event.key !== "Home" && event.key !== "Enter") return;
             actions.change(state => {
-                if (arrow === null && away === 0) setLamp(state, index, { ...untouchedLamp });
+                if (event.key === "Enter") bringIntoView(state, index, lamp, actions.view());
+                else if (arrow === null && away === 0) setLamp(state, index, { ...untouchedLamp });
                 else if (arrow !== null && event.shiftKey) turnLamp(state, index, lampTurn * arrow[0],
                     -lampTurn * arrow[1]);
                 else moveLamp(state, index, camera(), lampStep * (arrow?.[0] ?? 0), lampStep * (arrow?.[1] ?? 0),
@@ -156,6 +169,9 @@ export function makeStage(actions: StageActions): Stage {
 
     return {
         node, canvas,
+        bringLampsIntoView() {
+            actions.change(state => lamps.forEach((lamp, index) => bringIntoView(state, index, lamp, actions.view())));
+        },
         setLamps(list) {
             lamps = list;
             handles.replaceChildren(...lamps.map(makeHandle));
