@@ -15,15 +15,28 @@ import unittest
 
 from live_page import LINK, ROOT, WIDTH, Keys, LivePageTest
 
-# What compilers of the browser say about a fragment shader; empty if it compiles.
+# What the browser says about fragment shaders in a program as users make it, with a vertex shader of their own; empty if it
+# compiles and is linked.
 COMPILE = """
 const gl = document.createElement("canvas").getContext("webgl2");
-const messages = arguments[0].map(text => {
-    const shader = gl.createShader(gl.FRAGMENT_SHADER);
+const make = (type, text) => {
+    const shader = gl.createShader(type);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
-    const compiles = gl.getShaderParameter(shader, gl.COMPILE_STATUS);
-    const message = compiles ? "" : gl.getShaderInfoLog(shader) || "does not compile";
+    return shader;
+};
+const corners = make(gl.VERTEX_SHADER, `#version 300 es
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`);
+const messages = arguments[0].map(text => {
+    const shader = make(gl.FRAGMENT_SHADER, text);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) return gl.getShaderInfoLog(shader) || "does not compile";
+    const program = gl.createProgram();
+    gl.attachShader(program, corners);
+    gl.attachShader(program, shader);
+    gl.linkProgram(program);
+    const isLinked = gl.getProgramParameter(program, gl.LINK_STATUS);
+    const message = isLinked ? "" : gl.getProgramInfoLog(program) || "is not linked";
+    gl.deleteProgram(program);
     gl.deleteShader(shader);
     return message;
 });
@@ -31,8 +44,9 @@ gl.getExtension("WEBGL_lose_context").loseContext();
 return messages;
 """
 TEXTS = """
-return [...document.getElementById("left").options].map(option => [option.value,
-    window.nusselt.shaderText({ technique: option.value, heuristic: "balance", sampler: "sobol" })]);
+return [...document.getElementById("left").options].map(option => option.value).flatMap(technique =>
+    [...document.getElementById("left-sampler").options].map(({ value: sampler }) =>
+        [`${technique} ${sampler}`, window.nusselt.shaderText({ technique, heuristic: "balance", sampler })]));
 """
 SCREENS = {"phone": (390, 844), "tablet": (768, 1024), "desktop": (1280, 800)}
 CATCH_COPIES = "navigator.clipboard.writeText = async text => { window.copied = text }; window.copied = ''"
@@ -171,7 +185,7 @@ class Page(LivePageTest):
         self.assertFalse(self.find("#failure").is_displayed())
 
     def test_all_shaders_compile(self):
-        """In the browser, whose rules are stricter than those of other compilers."""
+        """Alone, as they are copied, in the browser, whose rules are stricter than those of other compilers."""
         self.open()
         scenes = [row["name"] for row in json.loads((ROOT / "web/scenes.json").read_text())]
         for name, thick in itertools.product(scenes, (False, True)):
@@ -179,11 +193,16 @@ class Page(LivePageTest):
             if self.find("#thick").is_selected() != thick:
                 self.browser.click(self.find("#thick"))
             texts = dict(self.browser.script(TEXTS))
-            self.assertGreater(len(texts), 20)
+            self.assertGreater(len(texts), 40)
             messages = dict(zip(texts, self.browser.script(COMPILE, list(texts.values()))))
             wrong = {technique: message for technique, message in messages.items() if message}
             self.assertEqual({}, wrong, f"{name}, {thick}")
-        self.assertNotEqual([""], self.browser.script(COMPILE, [texts["area"] + "mistake"]))
+        text = texts["area sobol"]
+        self.assertTrue(text.startswith("#version 300 es\n") and "Permission is hereby granted" in text)
+        # What does not compile, and what is compiled but not linked.
+        self.assertNotEqual([""], self.browser.script(COMPILE, [text + "mistake"]))
+        self.assertNotEqual([""], self.browser.script(COMPILE, [text.replace("void main()", "in vec2 place;\nvoid main()")
+                                                                .replace("frames = ", "frames = place.xyxy + ")]))
         self.browser.messages() # the browser warns that contexts are lost
 
 
@@ -262,7 +281,9 @@ class Controls(LivePageTest):
         self.browser.click(self.find(f"#{side}-copy"))
         self.wait("return window.copied")
         text = self.browser.script("return window.copied")
-        self.assertIn("Nusselt", text)
+        self.assertEqual(text, self.browser.script("return window.nusselt.shaderText(arguments[0])", {
+            name: self.find(f"#{side}{suffix}").get_attribute("value")
+            for name, suffix in (("technique", ""), ("heuristic", "-heuristic"), ("sampler", "-sampler"))}))
         self.assertEqual([""], self.browser.script(COMPILE, [text]))
         self.browser.messages()
         self.browser.script("navigator.clipboard.writeText = () => Promise.reject(new Error())")
@@ -316,9 +337,11 @@ class Controls(LivePageTest):
         """Lights behind the camera and beside the image, by the button, by Enter and by dragging."""
         places = """return [...document.querySelectorAll('.handle')].map(handle => [handle.style.left, handle.style.top])
             .map(place => place.map(share => parseFloat(share)))"""
-        moved = re.sub("lamps=[^&]*&?", "", self.browser.script("return location.hash.slice(1)")) + "&lamps=0,0,9,0,0,1;-9,0,0,0,0,1"
+        others = re.sub("lamps=[^&]*&?", "", self.browser.script("return location.hash.slice(1)"))
+        moved = f"{others}&lamps=0,0,9,0,0,1;-9,0,0,0,0,1"
         self.go(moved)
-        self.assertEqual([[50, 98], [2, True]], [self.browser.script(places)[0], [self.browser.script(places)[1][0], True]])
+        behind, beside = self.browser.script(places)
+        self.assertEqual(([50, 98], 2), (behind, beside[0]))
         self.changes("bring", lambda: self.browser.click(self.find("#bring")))
         for left, top in self.browser.script(places):
             self.assertTrue(9 < left < 91 and 9 < top < 91, (left, top))
