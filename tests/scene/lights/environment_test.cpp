@@ -182,7 +182,7 @@ TEST_F(Environments, HiddenPortalsGiveAWarning) {
         "scene.pbrt:3: environment: nothing that the camera sees receives light through its "
         "portal; a wall may hide it";
     EXPECT_EQ(warning(scene(floor + wall_at("1.5"))), expected) << "between floor and portal";
-    EXPECT_EQ(warning(scene(floor + wall_at("2.5"))), expected) << "beyond the portal";
+    EXPECT_EQ(warning(scene(floor + wall_at("-1.5") + wall_at("2.5"))), expected) << "on both sides";
     const std::string object = "ObjectBegin \"o\"\n" + wall_at("1.5") + "ObjectEnd\nObjectInstance \"o\"\n";
     EXPECT_EQ(warning(scene(floor + object)), expected);
     EXPECT_TRUE(load("LookAt 9 1 1  2 1 1  0 1 0\nCamera \"perspective\"\nWorldBegin\n" + portal + floor +
