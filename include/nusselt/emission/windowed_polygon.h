@@ -113,6 +113,10 @@ public:
     NUSSELT_HD Vec3<T> unshadowed() const noexcept {
         Vec3<T> sum{T(0), T(0), T(0)};
         if (!(sums_.total() > T(0))) return sum;
+        if (table_->colour == nullptr) {
+            const T grey = (table_->mean / kPi<T>)*sums_.total();
+            return {grey, grey, grey};
+        }
         for (int column = 0; column < n; ++column) {
             for (int row = 0; row < n; ++row) {
                 const T weight = sums_.weight(column, row);
@@ -221,8 +225,23 @@ private:
                        end <= texels.last ? min(slope_at(end), to) : to);
     }
 
+    /// Fetches the sums at the lines of the lattice while angles are computed: large tables are not in the cache.
+    NUSSELT_HD void prefetch_lines() const noexcept {
+        constexpr int kLarge = 1 << 18;
+        if (table_->width * table_->height < kLarge) return;
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; j <= n; ++j) {
+                const RectifiedSums* const low =
+                    table_->sums + table_->index(columns_.texel[i], rows_.texel[j]);
+                detail::prefetch(low);
+                detail::prefetch(low + (table_->width + 1));
+            }
+        }
+    }
+
     /// Adds up the weights of cells along columns.
     NUSSELT_HD void find_weights() noexcept {
+        prefetch_lines();
         T angle[n * n];
         WindowLattice<T, n>(image_, columns_.offset, rows_.offset).find_angles(angle);
         clip_angles(angle);

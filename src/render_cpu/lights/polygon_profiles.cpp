@@ -155,6 +155,9 @@ struct PolygonProfiles::Table {
         const double texel = 2 * std::atan(double{domain.high.x}) / texels;
         table = make_rectified_table(TableRadiance(emission, frame, texel), domain, texels, texels, kLookups,
                                      sums.data(), colour.data());
+        // All channels are equal.
+        table.colour = nullptr;
+        colour = {};
     }
 
     int texels;

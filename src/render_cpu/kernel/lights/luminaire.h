@@ -11,16 +11,15 @@ namespace kernel {
 
 /// The last of the entries but one that is not above a number; the first one if all are.
 inline std::int32_t step_of(const float* increasing, std::int32_t count, float value) noexcept {
-    std::int32_t low = 0;
-    std::int32_t high = count - 1;
-    while (high - low > 1) {
-        const std::int32_t middle = (low + high) / 2;
-        if (increasing[middle] <= value)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    const std::int32_t last = count - 2;
+    if (last <= 0) return 0;
+    // Most tables have equal steps. Then this is the entry, or the next one because of rounding; a search has to guess.
+    const float share = (value - increasing[0]) / (increasing[count - 1] - increasing[0]);
+    std::int32_t at = static_cast<std::int32_t>(min(max(share, 0.0f), 1.0f) * static_cast<float>(count - 1));
+    if (at > last) at = last;
+    while (at < last && increasing[at + 1] <= value) ++at;
+    while (at > 0 && increasing[at] > value) --at;
+    return at;
 }
 
 /// The intensity in a direction of unit length, in the frame of the luminaire.
