@@ -21,8 +21,8 @@ BEGIN {
     allow("include/sampling", below " include/simd")
     allow("include/cones", below " include/sampling include/simd")
     allow("include/line_samples", below " include/sampling")
-    allow("include/related", below " include/sampling include/line_samples")
-    below = below " include/sampling include/line_samples include/related"
+    allow("include/related", below " include/sampling include/line_samples include/cones")
+    below = below " include/sampling include/line_samples include/cones include/related"
     allow("include/emission", "include/core include/geometry include/ltc include/sampling include/simd")
     allow("include/line_emission", "include/core include/emission include/geometry include/ltc include/sampling")
     below = below " include/emission include/line_emission"

@@ -1,6 +1,6 @@
 /// All techniques for spheres, disks, ellipses and ellipsoids on hostile lights.
 
-#include "hostile_test.h"
+#include "sampling/hostile_test.h"
 
 namespace nusselt_test {
 
