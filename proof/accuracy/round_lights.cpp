@@ -68,11 +68,11 @@ const std::vector<RoundClass>& round_classes() {
              const Vec d = normalize(above(e) + Vec{0, 0, 0.1});
              return around(e, 40.0 * d, 2e-4, 1e-3);
          }},
-        {"1 mm at 40 m, crossing the horizon", Visibility::everyone,
+        {"1 cm at 2 m, crossing the horizon", Visibility::everyone,
          [](Engine& e) {
              const double angle = uniform(e, 0, 2 * kPi<double>);
-             const Vec center{40 * std::cos(angle), 40 * std::sin(angle), uniform(e, -2e-4, 2e-4)};
-             return around(e, center, 5e-4, 1e-3);
+             const Vec center{2 * std::cos(angle), 2 * std::sin(angle), uniform(e, -2e-3, 2e-3)};
+             return around(e, center, 5e-3, 1e-2);
          }},
         {"large and close", Visibility::everyone,
          [](Engine& e) {

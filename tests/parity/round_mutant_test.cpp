@@ -23,7 +23,7 @@ TEST_F(RoundMutant, LightsThatTheHorizonShouldCutAreFound) {
                                  [&](const std::string& excess) { return excess.rfind(begin, 0) == 0; });
         };
         EXPECT_GT(count_of("crossing the horizon: measure"), 0);
-        EXPECT_GT(count_of("1 mm at 40 m, crossing the horizon: measure"), 0);
+        EXPECT_GT(count_of("1 cm at 2 m, crossing the horizon: measure"), 0);
         EXPECT_EQ(count_of("above:"), 0) << "these lights are whole";
     }
 }
