@@ -46,12 +46,6 @@ Ellipsoid<float> crossing(Engine& engine) {
     return around(engine, uniform(engine, 1.2, 2) * d, 0.4, 0.8);
 }
 
-Ellipsoid<float> sphere(Engine& engine) {
-    const double radius = uniform(engine, 0.2, 1);
-    const Vec center = uniform(engine, 1.2, 4) * above(engine);
-    return ellipsoid(engine, center, direction(engine), radius, radius, radius);
-}
-
 } // namespace
 
 const std::vector<RoundClass>& round_classes() {
@@ -61,7 +55,6 @@ const std::vector<RoundClass>& round_classes() {
              const Vec center = {uniform(e, -1, 1), uniform(e, -1, 1), uniform(e, 1.2, 3)};
              return around(e, center, 0.2, 1);
          }},
-        {"spheres", Visibility::everyone, sphere},
         {"crossing the horizon", Visibility::everyone, crossing},
         {"1 mm at 40 m", Visibility::everyone,
          [](Engine& e) {

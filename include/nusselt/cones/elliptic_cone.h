@@ -86,12 +86,17 @@ struct ConeColumns {
     Vec3<Real> u, v, c;
     Vec3<Real> row[3];
 
-    /// Rotates u and v by less than 45 degrees, so that they become perpendicular.
+    /// Rotates u and v by less than 45 degrees, so that they become perpendicular. Those of a circle stay as they are, for
+    /// rounding would turn them anyhow, and samples of neighbouring points would have nothing in common.
     NUSSELT_HD void turn() noexcept {
         const Real both = dot(u, v);
         const Real difference = dot(u - v, u + v);
+        const Real rounding =
+            Real(4 * std::numeric_limits<scalar_t<Real>>::epsilon()) * (dot(u, u) + dot(v, v));
         const Real denominator = abs(difference) + hypotenuse(difference, both + both);
-        const Real tangent = copysign(over_positive(abs(both + both), denominator), both * difference);
+        const Real ratio =
+            select(denominator > rounding, over_positive(abs(both + both), denominator), Real(0));
+        const Real tangent = copysign(ratio, both * difference);
         const Real cosine = Real(1) / sqrt(multiply_add(tangent, tangent, Real(1)));
         const Real sine = tangent * cosine;
         const Vec3<Real> turned = cosine * u + sine * v;

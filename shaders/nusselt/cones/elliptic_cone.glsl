@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 82cd891f22f4
+// Follows include/nusselt/cones/elliptic_cone.h @ 097f1d914af2
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -44,12 +44,15 @@ struct ConeColumns {
     vec3 lu, lv, lc;
 };
 
-/// Rotates u and v by less than 45 degrees, so that they become perpendicular.
+/// Rotates u and v by less than 45 degrees, so that they become perpendicular. Those of a circle stay as they are, for
+/// rounding would turn them anyhow, and samples of neighbouring points would have nothing in common.
 void cone_columns_turn(inout ConeColumns self) {
     float both = dot(self.u, self.v);
     float difference = dot(self.u - self.v, self.u + self.v);
     float denominator = abs(difference) + hypotenuse(difference, both + both);
-    float tangent = copysign(over_positive(abs(both + both), denominator), both * difference);
+    float rounding = (4.0 * kNusseltEpsilon) * (dot(self.u, self.u) + dot(self.v, self.v));
+    float ratio = denominator > rounding ? over_positive(abs(both + both), denominator) : 0.0;
+    float tangent = copysign(ratio, both * difference);
     float cosine = 1.0 / sqrt(nusselt_fma(tangent, tangent, 1.0));
     float sine = tangent * cosine;
     vec3 u = cosine * self.u + sine * self.v;
