@@ -95,7 +95,7 @@ Silhouette silhouette_of(const nusselt::FlatLightView<long double>& view) {
     return {view.center, view.u, view.v};
 }
 Silhouette silhouette_of(const nusselt::SolidLightView<long double>& view) {
-    return {view.rim * view.center, view.rim * view.u, view.rim * view.v};
+    return {view.rim * view.center, view.u, view.v};
 }
 
 /// The integral of the importance of a technique times f over a light: of a lobe, or else of the cosine at the surface.

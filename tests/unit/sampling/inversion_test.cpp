@@ -54,9 +54,11 @@ bool recovered(const Technique& technique, const nusselt::Vec2<T>& u, T error,
 }
 
 /// Leaves out the ends for cylinders. Where a half-plane touches a cylinder or meets the others at the axis, random
-/// numbers change with the square root of the change in direction.
+/// numbers change with the square root of the change in direction. For round lights, (0, y) and (1, 1 - y) are the same
+/// direction, and (0.5, 0.5) may be the axis of a cone, where all angles meet.
 template <class Kind, class T>
 std::vector<T> coordinates() {
+    if (kIsRound<Kind>) return {T(1e-3), T(0.125), T(0.3), T(0.45), T(0.71), T(0.9), T(0.999)};
     if (kIsCylinder<Kind>) return {T(1e-3), T(0.125), T(0.3), T(0.5), T(0.71), T(0.9), T(0.999)};
     return {T(0), T(1e-3), T(0.125), T(0.3), T(0.5), T(0.71), T(0.9), T(0.999), kLargestBelowOne<T>};
 }
