@@ -1,5 +1,6 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/without_gil.h"
 
 #include "tables/ltc_table.h"
 
@@ -35,7 +36,7 @@ void call(const std::string& name, const std::vector<std::ptrdiff_t>& shape,
         entries = {table->entries.data(), table->roughnesses, table->inclinations, table->f0s};
     State state;
     state.alone = reinterpret_cast<const char*>(&entries);
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     run(row.kernel, row.lanes, state, loop, threads);
 }
 

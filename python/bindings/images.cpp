@@ -1,5 +1,7 @@
 #include "python/bindings/images.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/text.h"
+#include "python/bindings/without_gil.h"
 
 #include "image/difference.h"
 #include "image/flip.h"
@@ -21,7 +23,18 @@ namespace py = pybind11;
 namespace {
 
 using Pixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using Channels = std::vector<std::string>;
+
+py::dict to_dict(const image::Metadata& metadata) {
+    py::dict texts;
+    for (const auto& [key, text] : metadata) texts[text_of(key)] = text_of(text);
+    return texts;
+}
+
+image::Metadata metadata_of(const py::dict& texts) {
+    image::Metadata metadata;
+    for (const auto& [key, text] : texts) metadata[bytes_of(key)] = bytes_of(text);
+    return metadata;
+}
 
 py::tuple to_tuple(const image::Window& window) {
     return py::make_tuple(window.x, window.y, window.width, window.height);
@@ -87,7 +100,7 @@ template <class Function>
 auto with_images(const Pixels& a, const Pixels& reference, const Function& function) {
     const image::Image image = image_of(a);
     const image::Image other = image_of(reference);
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     return function(image, other);
 }
 
@@ -109,10 +122,10 @@ py::tuple hdr_flip(const Pixels& a, const Pixels& reference, double pixels_per_d
     return py::make_tuple(to_array(std::move(map)), mean);
 }
 
-void write_image(const std::string& path, const Pixels& pixels, const image::Metadata& metadata,
-                 double exposure) {
+void write_image(const std::string& path, const Pixels& pixels, const py::dict& texts, double exposure) {
     const image::Image image = image_of(pixels);
-    const py::gil_scoped_release release;
+    const image::Metadata metadata = metadata_of(texts);
+    const WithoutGil released;
     image::write_image(path, image, metadata, exposure);
 }
 
@@ -128,14 +141,14 @@ py::tuple to_tuple(Picture&& picture) {
     image::LayeredImage& image = picture.whole;
     py::list layers;
     for (image::Layer& layer : image.layers) {
-        const Channels channels(layer.channels.begin(), layer.channels.end());
+        const py::list channels = texts_of(layer.channels);
         const auto count = static_cast<py::ssize_t>(channels.size());
         layers.append(
-            py::make_tuple(layer.name, channels,
+            py::make_tuple(text_of(layer.name), channels,
                            array_of(std::move(layer.data), {image.data.height, image.data.width, count})));
     }
-    return py::make_tuple(layers, image.metadata, to_tuple(image.data), to_tuple(image.display),
-                          image.foreign_metadata, picture.tiles);
+    return py::make_tuple(layers, to_dict(image.metadata), to_tuple(image.data), to_tuple(image.display),
+                          to_dict(image.foreign_metadata), text_of(picture.tiles));
 }
 
 image::LayeredImage layered_image_of(const py::tuple& parts) {
@@ -144,16 +157,18 @@ image::LayeredImage layered_image_of(const py::tuple& parts) {
     image.display = window_of(parts[3]);
     if (py::len(parts[0]) == 0) throw std::invalid_argument("an image must have a layer");
     for (const py::handle& part : parts[0]) {
-        const auto [name, channels, data] = part.cast<std::tuple<std::string, Channels, Pixels>>();
-        check_shape(name, data, image.data, channels.size());
+        const auto [name, names, data] = part.cast<std::tuple<py::str, py::list, Pixels>>();
         image::Layer& layer = image.layers.emplace_back();
-        layer.name = name;
+        layer.name = bytes_of(name);
+        std::vector<std::string> channels;
+        for (const py::handle& channel : names) channels.push_back(bytes_of(channel));
+        check_shape(layer.name, data, image.data, channels.size());
         layer.channels = image::ChannelNames(channels);
         layer.data.assign(data.data(), data.data() + data.size());
     }
-    image.metadata = parts[1].cast<image::Metadata>();
-    image.foreign_metadata = parts[4].cast<image::Metadata>();
-    const auto text = parts[5].cast<std::string>();
+    image.metadata = metadata_of(parts[1]);
+    image.foreign_metadata = metadata_of(parts[4]);
+    const std::string text = bytes_of(parts[5]);
     if (text.empty()) return image;
     const image::PackedTiles tiles(text);
     if (!(tiles.whole() == image.data))
@@ -165,19 +180,19 @@ image::LayeredImage layered_image_of(const py::tuple& parts) {
 void bind_images(py::module_& module) {
     module.def("read_layers", [](const std::string& path) {
         Picture picture = [&] {
-            const py::gil_scoped_release release;
+            const WithoutGil released;
             return read_picture(path);
         }();
         return to_tuple(std::move(picture));
     });
     module.def("write_layers", [](const std::string& path, const py::tuple& parts) {
         const image::LayeredImage image = layered_image_of(parts);
-        const py::gil_scoped_release release;
+        const WithoutGil released;
         image::write_layers(path, image);
     });
     module.def("read_image", [](const std::string& path) {
         image::Image image = [&] {
-            const py::gil_scoped_release release;
+            const WithoutGil released;
             return image::read_image(path);
         }();
         return to_array(std::move(image));

@@ -1,4 +1,5 @@
 #include "python/bindings/bindings.h"
+#include "python/bindings/without_gil.h"
 
 #include "render/settings.h"
 #include "tables/blue_noise.h"
@@ -47,7 +48,7 @@ void fill(const std::string& sampler, std::uint32_t seed, const Numbers& x, cons
     Scalar* const numbers = u.mutable_data();
     const py::ssize_t count = x.size();
     const BlueNoiseView noise = tables::blue_noise();
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     for (py::ssize_t i = 0; i < count; ++i) {
         const Vec2<Scalar> pair_of_sample =
             light_random<Scalar>(kind, seed, xs[i], ys[i], samples[i], sample_count, light, pair, noise);

@@ -3,6 +3,8 @@
 #include "python/bindings/render_backend.h"
 #include "python/bindings/render_settings.h"
 #include "python/bindings/scene.h"
+#include "python/bindings/text.h"
+#include "python/bindings/without_gil.h"
 
 #include "image/image.h"
 #include "render/frame.h"
@@ -13,8 +15,12 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <future>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -40,8 +46,57 @@ struct Progress {
     std::atomic<bool> cancel = false;
 };
 
+/// The renderings that run. Threads of Python that are daemons go on while Python ends, and their renderings would use
+/// what the process destroys.
+class Renderings {
+public:
+    /// \throws std::runtime_error if Python ends
+    void add(Progress& progress) {
+        const std::lock_guard lock(mutex_);
+        if (ended_) throw std::runtime_error("Python ends; no rendering begins any more");
+        running_.insert(&progress);
+    }
+    void remove(Progress& progress) {
+        const std::lock_guard lock(mutex_);
+        running_.erase(&progress);
+        changed_.notify_all();
+    }
+    /// Cancels all of them, and waits for their ends.
+    void end() {
+        const WithoutGil released;
+        std::unique_lock lock(mutex_);
+        ended_ = true;
+        for (Progress* progress : running_) progress->cancel = true;
+        changed_.wait(lock, [&] { return running_.empty(); });
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::set<Progress*> running_;
+    bool ended_ = false;
+};
+
+Renderings& renderings() {
+    static Renderings all;
+    return all;
+}
+
+/// One of them.
+class Running {
+public:
+    explicit Running(Progress& progress) : progress_(progress) { renderings().add(progress); }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { renderings().remove(progress_); }
+
+private:
+    Progress& progress_;
+};
+
 Outcome render_scene(const scene::Scene& scene, const render::RenderSettings& settings,
                      const render::Backend& backend, Progress& progress) {
+    const Running running(progress);
     if (const auto reason = backend.why_unsupported(scene, settings)) throw std::invalid_argument(*reason);
     Outcome outcome;
     outcome.warnings = backend.warnings(scene, settings);
@@ -75,7 +130,7 @@ Outcome wait_for(std::future<Outcome> rendering, Progress& progress, const py::o
         if (!answer.is_none() && !truth(answer)) progress.cancel = true;
     };
     const auto wait = [&] {
-        const py::gil_scoped_release release;
+        const WithoutGil released;
         return rendering.wait_for(kInterval) == std::future_status::ready;
     };
     try {
@@ -83,7 +138,7 @@ Outcome wait_for(std::future<Outcome> rendering, Progress& progress, const py::o
         report();
     } catch (...) {
         progress.cancel = true;
-        const py::gil_scoped_release release;
+        const WithoutGil released;
         rendering.wait();
         throw;
     }
@@ -104,19 +159,20 @@ py::tuple render(const EditableScene& edited, const py::dict& arguments, const B
                  const py::object& progress_callback) {
     const std::shared_ptr<const scene::Scene> scene = edited.get();
     const render::RenderSettings settings = settings_of(arguments, scene->film);
-    const std::unique_ptr<render::Backend> backend = make_backend(choice);
+    const std::unique_ptr<render::Backend> backend = make_backend(choice, *scene, settings);
     Progress progress;
     Outcome outcome = wait_for(
         std::async(std::launch::async, [&] { return render_scene(*scene, settings, *backend, progress); }),
         progress, progress_callback);
     return py::make_tuple(to_tuple(std::move(outcome.image)), to_dict(outcome.statistics), outcome.finished,
-                          outcome.warnings);
+                          texts_of(outcome.warnings));
 }
 
+/// \returns (parts of the image, which parts are missing or unfinished)
 py::tuple merge(const std::vector<std::pair<std::string, py::tuple>>& images) {
     render::Merger merger;
     for (const auto& [name, parts] : images) merger.add(layered_image_of(parts), name);
-    return to_tuple({merger.result(), ""});
+    return py::make_tuple(to_tuple({merger.result(), ""}), text_of(merger.what_is_missing()));
 }
 
 } // namespace
@@ -131,6 +187,7 @@ void bind_render(py::module_& module) {
         .def_readwrite("shadow_rays", &BackendChoice::shadow_rays);
     module.def("render", &render);
     module.def("merge", &merge);
+    py::module_::import("atexit").attr("register")(py::cpp_function([] { renderings().end(); }));
     module.def("setting_names", &setting_names);
 }
 

@@ -1,11 +1,14 @@
 #include "python/bindings/render_settings.h"
 
+#include "python/bindings/text.h"
+
 #include "render/choices/usual_settings.h"
 
 #include <pybind11/stl.h>
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +20,12 @@ namespace {
 
 using render::RenderSettings;
 
+/// What the numbers of a type are called.
+template <class Value>
+constexpr const char* kKind = std::is_unsigned_v<Value>   ? "a whole number from 0 to 2^32 - 1"
+                              : std::is_integral_v<Value> ? "a whole number below 2^31"
+                                                          : "a number";
+
 /// The argument of a name, if it is given and not None.
 class Arguments {
 public:
@@ -27,7 +36,7 @@ public:
 
     /// \param expected the kind of value, for messages
     template <class Value>
-    void read(const char* name, Value& value, const char* expected = "a number that fits") const {
+    void read(const char* name, Value& value, const char* expected = kKind<Value>) const {
         if (!has(name)) return;
         try {
             value = get(name).cast<Value>();
@@ -39,11 +48,15 @@ public:
     /// \param values all of the enumeration
     template <class Values, class Value>
     void read(const char* name, const Values& values, Value& value) const {
-        if (!has(name)) return;
+        if (has(name)) value = named(name, values, bytes_of(py::str(get(name))));
+    }
+    /// The value of the name that an argument has.
+    template <class Values>
+    static auto named(const char* argument, const Values& values, const std::string& name) {
         try {
-            value = render::from_name(values, py::str(get(name)).cast<std::string>());
+            return render::from_name(values, name);
         } catch (const std::invalid_argument& error) {
-            throw std::invalid_argument(std::string(name) + ": " + error.what());
+            throw std::invalid_argument(std::string(argument) + ": " + error.what());
         }
     }
 
@@ -72,13 +85,14 @@ void read_layers(const Arguments& arguments, RenderSettings& settings) {
         names = {arguments.get("layers").cast<std::string>()};
     else
         arguments.read("layers", names, "a name or a list of names");
+    bool is_all = false;
     for (const std::string& name : names) {
-        if (name == "all") {
-            settings.layers.assign(render::kLayerKinds.begin(), render::kLayerKinds.end());
-            return;
-        }
-        settings.layers.push_back(render::from_name(render::kLayerKinds, name));
+        if (name == "all")
+            is_all = true;
+        else
+            settings.layers.push_back(Arguments::named("layers", render::kLayerKinds, name));
     }
+    if (is_all) settings.layers.assign(render::kLayerKinds.begin(), render::kLayerKinds.end());
 }
 
 } // namespace

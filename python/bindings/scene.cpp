@@ -1,5 +1,6 @@
 #include "python/bindings/scene.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/text.h"
 
 #include "render/film.h"
 #include "scene/import/importers.h"
@@ -59,7 +60,7 @@ py::list materials(const EditableScene& self) {
     using namespace py::literals;
     py::list list;
     for (const scene::Material& m : self.get()->materials)
-        list.append(py::dict("name"_a = m.name, "model"_a = name_of(m.model),
+        list.append(py::dict("name"_a = text_of(m.name), "model"_a = name_of(m.model),
                              "diffuse"_a = to_tuple(m.diffuse), "f0"_a = to_tuple(m.f0),
                              "roughness"_a = m.roughness, "exponent"_a = m.exponent, "alpha"_a = m.alpha,
                              "diffuse_texture"_a = m.diffuse_texture.texture));
@@ -70,8 +71,8 @@ py::list textures(const EditableScene& self) {
     using namespace py::literals;
     py::list list;
     for (const scene::Texture& t : self.get()->textures)
-        list.append(py::dict("name"_a = t.name, "width"_a = t.width, "height"_a = t.height,
-                             "channels"_a = t.channels, "path"_a = t.path));
+        list.append(py::dict("name"_a = text_of(t.name), "width"_a = t.width, "height"_a = t.height,
+                             "channels"_a = t.channels, "path"_a = text_of(t.path)));
     return list;
 }
 
@@ -79,7 +80,8 @@ py::list instances(const EditableScene& self) {
     py::list list;
     const auto scene = self.get();
     for (const scene::Instance& instance : scene->instances)
-        list.append(py::make_tuple(scene->objects[instance.object].name, instance.world_from_object));
+        list.append(
+            py::make_tuple(text_of(scene->objects[instance.object].name), instance.world_from_object));
     return list;
 }
 
@@ -89,7 +91,7 @@ py::tuple bounds(const EditableScene& self) {
 }
 
 EditableScene load(const std::string& path) {
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     return EditableScene(scene::load_scene(path));
 }
 
@@ -101,7 +103,7 @@ void apply_rig_text(EditableScene& self, const std::string& text, const std::str
 
 void apply_rig_file(EditableScene& self, const std::string& path) {
     const scene::Rig rig = [&] {
-        const py::gil_scoped_release release;
+        const WithoutGil released;
         return scene::read_rig(path);
     }();
     self.edit([&](Scene& scene) { apply_rig(rig, scene); });
@@ -112,15 +114,15 @@ std::string camera_text(const EditableScene& self) {
     return scene::to_camera_text({scene->camera, scene->film.width, scene->film.height});
 }
 
-std::string light_report(const EditableScene& self) {
+py::str light_report(const EditableScene& self) {
     std::ostringstream text;
     write_light_report(*self.get(), text);
-    return text.str();
+    return text_of(text.str());
 }
 
-std::vector<std::string> file_names(const EditableScene& self) {
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : self.get()->files) names.push_back(file.string());
+py::list file_names(const EditableScene& self) {
+    py::list names;
+    for (const std::filesystem::path& file : self.get()->files) names.append(text_of(file.string()));
     return names;
 }
 
@@ -132,7 +134,7 @@ void bind_scene(py::module_& module) {
         .def(py::init<const EditableScene&>())
         .def("apply_rig_text", &apply_rig_text)
         .def("apply_rig_file", &apply_rig_file)
-        .def("rig_text", [](const EditableScene& self) { return to_rig_text(*self.get()); })
+        .def("rig_text", [](const EditableScene& self) { return text_of(to_rig_text(*self.get())); })
         .def("camera_text", &camera_text)
         .def("apply_camera_text",
              [](EditableScene& self, const std::string& text) {
@@ -155,7 +157,8 @@ void bind_scene(py::module_& module) {
         .def_property_readonly("instances", &instances)
         .def_property_readonly("bounds", &bounds)
         .def_property_readonly("files", &file_names)
-        .def_property_readonly("warnings", [](const EditableScene& self) { return self.get()->warnings; })
+        .def_property_readonly("warnings",
+                               [](const EditableScene& self) { return texts_of(self.get()->warnings); })
         .def_property_readonly("radius", [](const EditableScene& self) { return self.get()->radius; })
         .def_property_readonly("light_count",
                                [](const EditableScene& self) { return self.get()->lights.size(); })

@@ -1,6 +1,8 @@
 #pragma once
 /// Scenes as Python sees them.
 
+#include "python/bindings/without_gil.h"
+
 #include "scene/model/scene.h"
 
 #include <pybind11/pybind11.h>
@@ -35,7 +37,7 @@ public:
 private:
     template <class Change>
     static std::shared_ptr<const scene::Scene> changed(const scene::Scene& base, const Change& change) {
-        const pybind11::gil_scoped_release release;
+        const WithoutGil released;
         auto copy = std::make_shared<scene::Scene>(base);
         change(*copy);
         return copy;

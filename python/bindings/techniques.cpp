@@ -1,5 +1,6 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/without_gil.h"
 
 #include <pybind11/stl.h>
 
@@ -63,7 +64,7 @@ private:
         const auto columns = static_cast<int>(numbers.shape(1));
         const TechniqueRow<Scalar>& row = row_of<Scalar>(technique, columns);
         const auto* const data = static_cast<const Scalar*>(numbers.data());
-        const py::gil_scoped_release release;
+        const WithoutGil released;
         lights_ = std::make_unique<Lights<Scalar>>(row, data, columns, count);
     }
 
@@ -75,7 +76,7 @@ private:
                 Loop<Scalar> loop = loop_of<Scalar>(shape, inputs, outputs);
                 const std::size_t first = shape.size() - shape_.size();
                 for (std::size_t i = 0; i < shape_.size(); ++i) loop.light_strides[first + i] = shape_[i] > 1;
-                const py::gil_scoped_release release;
+                const WithoutGil released;
                 run(kernel_of(lights->row()), lights->row().lanes, lights->state(), loop, threads);
             },
             lights_);

@@ -1,6 +1,7 @@
 """Types, shapes and memory of arguments: the rules that all functions share."""
 from __future__ import annotations
 
+import math
 import operator
 import os
 from collections.abc import Sequence
@@ -14,6 +15,52 @@ from nusselt import _core
 Array = npt.NDArray[Any]
 Core = tuple[int, ...]
 Threads = Union[int, None]
+
+
+def path_of(path: str | bytes | os.PathLike[Any]) -> bytes:
+    """The bytes of the name of a file, whatever its characters."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"the name of a file must not have zeros: {path!r}")
+    return name
+
+
+def whole_number(value: Any, name: str) -> int:
+    """A whole number that the compiled module takes as such."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number, not {value!r}") from None
+    if not -2**31 <= number < 2**31:
+        raise ValueError(f"{name} must be below 2^31, not {number}")
+    return number
+
+
+def finite(value: Any, name: str) -> float:
+    """A number that is neither infinite nor NaN."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a number, not {value!r}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, not {number}")
+    return number
+
+
+def text(value: Any, name: str) -> str:
+    """A text."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} must be a text, not {value!r}")
+    return value
+
+
+def real_array(value: npt.ArrayLike, name: str, dtype: npt.DTypeLike = None) -> Array:
+    """An array of real numbers of any shape."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name} must be real numbers, not {array.dtype}")
+    with np.errstate(over="ignore"):  # what is too large becomes infinite
+        return np.asarray(array, dtype)
 
 
 def real_type(arguments: Sequence[npt.ArrayLike], dtype: npt.DTypeLike = None) -> np.dtype[Any]:

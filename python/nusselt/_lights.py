@@ -35,21 +35,40 @@ class Technique:
 
     _random: ClassVar[Core] = (2,)
 
-    shape: tuple[int, ...]
-    dtype: np.dtype[Any]
-
     def __init__(self, parts: Sequence[tuple[str, npt.ArrayLike, Core]], dtype: npt.DTypeLike) -> None:
-        self.dtype = _arrays.real_type([value for _, value, _ in parts], dtype)
+        self._dtype = _arrays.real_type([value for _, value, _ in parts], dtype)
         arrays = [_arrays.operand(value, name, core, self.dtype) for name, value, core in parts]
         cores = [core for _, _, core in parts]
-        self.shape = _arrays.loop_shape(arrays, cores)
+        self._shape = _arrays.loop_shape(arrays, cores)
         columns = [np.broadcast_to(_arrays.flat(array, core) if core else array[..., None],
                                    self.shape + (_arrays.flat_core(core) or (1,)))
                    for array, core in zip(arrays, cores)]
         numbers = np.concatenate(columns, axis=-1).reshape(-1, sum(column.shape[-1] for column in columns))
         if len(numbers) == 0:
             raise ValueError("there are no lights: an axis has the length 0")
-        self._lights = _core.Lights(type(self).__name__, np.ascontiguousarray(numbers), self.shape)
+        self._prepare(np.ascontiguousarray(numbers))
+
+    def _prepare(self, numbers: Array) -> None:
+        self._numbers = numbers
+        self._lights = _core.Lights(type(self).__name__, numbers, self.shape)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the array of lights."""
+        return self._shape
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The type of all numbers."""
+        return self._dtype
+
+    def __getstate__(self) -> tuple[Array, tuple[int, ...]]:
+        return self._numbers, self._shape
+
+    def __setstate__(self, state: tuple[Array, tuple[int, ...]]) -> None:
+        numbers, self._shape = state
+        self._dtype = numbers.dtype
+        self._prepare(numbers)
 
     def sample(self, u: npt.ArrayLike, *, out: Sequence[Array | None] | None = None,
                threads: Threads = 1) -> Sample:
@@ -60,6 +79,8 @@ class Technique:
         """
         numbers = _arrays.random_operand(u, self._random, self.dtype)
         shape = _arrays.loop_shape([numbers], [self._random], self.shape)
+        if out is not None and not isinstance(out, Sequence):
+            raise TypeError(f"out must be a list of arrays for wi, pdf and p, not {type(out).__name__}")
         given = list(out) if out is not None else [None, None, None]
         if len(given) != 3:
             raise ValueError(f"out must have arrays for wi, pdf and p, not {len(given)}")

@@ -6,13 +6,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from nusselt._arrays import Array
 from nusselt._lights import Sample, Technique
 
 __all__ = ["backward_error", "density_error"]
 
 
-def backward_error(exact: Technique, u: npt.ArrayLike, sample: Sample) -> Array:
+def backward_error(exact: Technique, u: npt.ArrayLike, sample: Sample) -> Any:
     """The change (...) of the first random number that would explain the rounding errors of samples, NaN where there is no
     sample (Peters 2021, polygonal lights, Sec. 3.6).
 
@@ -23,8 +22,7 @@ def backward_error(exact: Technique, u: npt.ArrayLike, sample: Sample) -> Array:
     given = np.asarray(u, np.float64)
     error = np.abs(inverse - given)
     error = error[..., 0] if exact._random else error
-    masked: Array = np.where(np.asarray(sample.pdf) > 0, error, np.nan)
-    return masked
+    return np.where(np.asarray(sample.pdf) > 0, error, np.nan)[()]
 
 
 def density_error(exact: Technique, sample: Sample) -> Any:
@@ -32,4 +30,4 @@ def density_error(exact: Technique, sample: Sample) -> Any:
     true = np.asarray(exact.pdf(sample.wi), np.float64)
     pdf = np.asarray(sample.pdf, np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where((pdf > 0) & (true > 0), np.abs(pdf / true - 1), np.nan)
+        return np.where((pdf > 0) & (true > 0), np.abs(pdf / true - 1), np.nan)[()]

@@ -37,13 +37,18 @@ def shading_frame(normal: npt.ArrayLike, wo: npt.ArrayLike, *, threads: Threads 
 
 def to_shading(frames: npt.ArrayLike, v: npt.ArrayLike) -> Array:
     """Vectors v (..., 3) of the world in shading spaces (..., 3, 3). Subtract the shading point from points first."""
-    rotated: Array = np.einsum("...ij,...j->...i", np.asarray(frames), np.asarray(v))
-    return rotated
+    return _rotated("...ij,...j->...i", frames, v)
 
 
 def to_world(frames: npt.ArrayLike, v: npt.ArrayLike) -> Array:
     """Vectors v (..., 3) of shading spaces (..., 3, 3) in the world."""
-    rotated: Array = np.einsum("...ji,...j->...i", np.asarray(frames), np.asarray(v))
+    return _rotated("...ji,...j->...i", frames, v)
+
+
+def _rotated(sum_of_products: str, frames: npt.ArrayLike, v: npt.ArrayLike) -> Array:
+    dtype = _arrays.real_type([frames, v])
+    rotated: Array = np.einsum(sum_of_products, _arrays.operand(frames, "frames", (3, 3), dtype),
+                               _arrays.operand(v, "v", (3,), dtype))
     return rotated
 
 

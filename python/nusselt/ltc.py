@@ -34,7 +34,7 @@ class LtcTable:
     @staticmethod
     def load(path: str | os.PathLike[str]) -> LtcTable:
         """Reads a file as `nusselt-lab fit` writes it. Raises RuntimeError if it is none."""
-        return LtcTable(_core.load_table(os.fspath(path)))
+        return LtcTable(_core.load_table(_arrays.path_of(path)))
 
     @property
     def entries(self) -> Array:

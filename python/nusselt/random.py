@@ -18,7 +18,10 @@ def light_random(sampler: str, x: npt.ArrayLike, y: npt.ArrayLike, sample: npt.A
     x, y: (...) pixels; sample: (...) numbers from 0 to sample_count - 1, which is at most 2^22, or 2^31 for z_sobol.
     light, pair: streams that are independent. All are whole numbers below 2^32.
     """
+    if dtype is None:
+        raise TypeError("dtype must be float32 or float64, not None")
     real = _arrays.real_type([], dtype)
+    _arrays.text(sampler, "sampler")
     pixels_and_samples = np.broadcast_arrays(*(_whole(value, name) for value, name in
                                                ((x, "x"), (y, "y"), (sample, "sample"))))
     stream = [_whole_number(value, name) for value, name in ((seed, "seed"), (light, "light"), (pair, "pair"))]
@@ -39,7 +42,11 @@ def light_random(sampler: str, x: npt.ArrayLike, y: npt.ArrayLike, sample: npt.A
 def points(sampler: str, count: int, *, pixel: tuple[int, int] = (0, 0), seed: int = 0, light: int = 0,
            pair: int = 0, dtype: npt.DTypeLike = np.float32) -> Array:
     """The points (count, 2) of one pixel and light: light_random() for all samples."""
-    return light_random(sampler, pixel[0], pixel[1], np.arange(count), count, seed=seed, light=light, pair=pair,
+    try:
+        x, y = pixel
+    except (TypeError, ValueError):
+        raise ValueError(f"pixel must be the pair (x, y), not {pixel!r}") from None
+    return light_random(sampler, x, y, np.arange(_whole_number(count, "count")), count, seed=seed, light=light, pair=pair,
                         dtype=dtype)
 
 

@@ -35,7 +35,7 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
            many_occluders: str | None = None, layers: str | Sequence[str] = (),
            part: tuple[int, int] | None = None, resolution: tuple[int, int] | None = None,
            backend: str = "cpu", threads: int | None = None, isa: str | None = None,
-           device: str | None = None, shadow_rays: str | None = None,
+           device: str | int | None = None, shadow_rays: str | None = None,
            progress: Callable[[float], object] | None = None) -> Rendering:
     """Renders the direct light of a scene.
 
@@ -47,7 +47,8 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
     part: (number, count), to render the tiles of one part, in the whole image, which is black elsewhere; images.merge()
         joins parts.
     resolution: (width, height) in pixels in place of that of the scene.
-    backend: "cpu", or "vulkan" for a GPU, with `device` (an index or a part of a name) and `shadow_rays`.
+    backend: "cpu"; "vulkan" for a GPU, with `device` (an index or a part of a name) and `shadow_rays`; or "auto", for a GPU
+        if there is one that supports the scene with these settings, and the processor otherwise.
     threads: default: one per hardware thread. isa: instruction set; default: NUSSELT_ISA, or the best one.
     progress: called with the share of the work that is done, in this thread, about twenty times a second. If it returns
         False, or anything else that is false but None, the rendering stops, and the image has what is there.
@@ -60,13 +61,24 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
                 "samples": samples, "light_samples": light_samples, "lines": lines, "orientation": orientation,
                 "offsets": offsets, "line_shading": line_shading, "many_occluders": many_occluders,
                 "layers": layers, "part": part}
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene must be a Scene, which nusselt.load() makes of a file, not {scene!r}")
     if resolution is not None:
+        try:
+            width, height = resolution
+        except (TypeError, ValueError):
+            raise ValueError(f"resolution must be the pair (width, height), not {resolution!r}") from None
         scene = scene.copy()
-        scene.resize(*resolution)
+        scene.resize(width, height)
     choice = _core.BackendChoice()
-    choice.name, choice.isa = backend, isa
+    choice.name = _arrays.text(backend, "backend")
     choice.threads = None if threads is None else _arrays.thread_count(threads)
-    choice.device, choice.shadow_rays = device, shadow_rays
+    if isa is not None:
+        choice.isa = _arrays.text(isa, "isa")
+    if device is not None:
+        choice.device = device if isinstance(device, str) else str(_arrays.whole_number(device, "device"))
+    if shadow_rays is not None:
+        choice.shadow_rays = _arrays.text(shadow_rays, "shadow_rays")
     parts, statistics, finished, notes = _core.render(scene._scene, settings, choice, progress)
     for note in notes:
         warnings.warn(note, stacklevel=2)

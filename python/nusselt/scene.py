@@ -6,10 +6,28 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from nusselt import _core
+import numpy as np
+
+from nusselt import _arrays, _core
 from nusselt._arrays import Array
 
 __all__ = ["Scene", "load"]
+
+
+def _json_text(value: Any, name: str) -> str:
+    """JSON of dictionaries and lists, which may hold numbers and arrays of numpy."""
+    try:
+        return json.dumps(value, default=_plain, allow_nan=False)
+    except ValueError as error:
+        if "JSON compliant" not in str(error):
+            raise
+        raise ValueError(f"{name} must not have numbers that are infinite or NaN") from None
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"a {type(value).__name__} is nothing that light rigs and cameras have: {value!r}")
 
 
 class Scene:
@@ -20,13 +38,21 @@ class Scene:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         """Loads a scene file in pbrt syntax, version 3 or 4, with its meshes and textures."""
-        self._scene = _core.Scene(os.fspath(path))
+        self._scene = _core.Scene(_arrays.path_of(path))
 
     def copy(self) -> Scene:
         """Another scene with the same content; edits of one do not change the other. Takes no memory until then."""
         other = Scene.__new__(Scene)
         other._scene = _core.Scene(self._scene)
         return other
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scene:
+        return self.copy()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("scenes cannot be pickled; pass the name of the file, and load it in each process")
 
     @property
     def lights(self) -> list[dict[str, Any]]:
@@ -41,12 +67,14 @@ class Scene:
 
         folder: where files that entries name are. If an entry is wrong, nothing changes.
         """
+        if isinstance(lights, Mapping) or isinstance(materials, Mapping):
+            raise TypeError("lights and materials must be lists of entries, not a single entry")
         rig = {"version": 1, "lights": list(lights), "materials": list(materials)}
-        self._scene.apply_rig_text(json.dumps(rig), os.path.join(os.fspath(folder), "rig"))
+        self._scene.apply_rig_text(_json_text(rig, "entries"), os.path.join(_arrays.path_of(folder), b"rig"))
 
     def apply_rig(self, path: str | os.PathLike[str]) -> None:
         """Applies the file of a light rig, as `nusselt render --lights` does."""
-        self._scene.apply_rig_file(os.fspath(path))
+        self._scene.apply_rig_file(_arrays.path_of(path))
 
     @property
     def camera(self) -> dict[str, Any]:
@@ -58,13 +86,13 @@ class Scene:
     @camera.setter
     def camera(self, view: Mapping[str, Any] | str | os.PathLike[str]) -> None:
         if isinstance(view, Mapping):
-            self._scene.apply_camera_text(json.dumps(view))
+            self._scene.apply_camera_text(_json_text(view, "a camera"))
         else:
-            self._scene.apply_camera_file(os.fspath(view))
+            self._scene.apply_camera_file(_arrays.path_of(view))
 
     def resize(self, width: int, height: int) -> None:
         """Gives images another size in pixels; the field of view along the shorter axis stays."""
-        self._scene.resize(width, height)
+        self._scene.resize(_arrays.whole_number(width, "width"), _arrays.whole_number(height, "height"))
 
     @property
     def warnings(self) -> list[str]:

@@ -133,6 +133,14 @@ def test_wrong_names_and_numbers_of_random_points_are_errors():
         nusselt.random.points("halton", 4)
     with pytest.raises(ValueError, match="sample must be whole numbers"):
         nusselt.random.light_random("sobol", 0, 0, -1, 4)
+    for error, message, call in [
+            (TypeError, "sampler must be a text, not None", lambda: nusselt.random.points(None, 4)),
+            (ValueError, "count must be whole numbers", lambda: nusselt.random.points("sobol", 4.0)),
+            (ValueError, r"pixel must be the pair \(x, y\), not 3", lambda: nusselt.random.points("sobol", 4, pixel=3)),
+            (ValueError, r"pixel must be the pair", lambda: nusselt.random.points("sobol", 4, pixel=(1, 2, 3))),
+            (TypeError, "dtype must be float32 or float64, not None", lambda: nusselt.random.points("sobol", 4, dtype=None))]:
+        with pytest.raises(error, match=message):
+            call()
     for message, options in [("seed must be whole numbers from 0 to 2.32 - 1", {"seed": -1}),
                              ("light must be whole numbers", {"light": 2**40}),
                              ("pair must be whole numbers", {"pair": 0.5}),
@@ -146,3 +154,13 @@ def test_wrong_names_and_numbers_of_random_points_are_errors():
         for count in (0, most + 1):
             with pytest.raises(ValueError, match=f"sample_count must lie between 1 and .* for sampler '{sampler}', not {count}"):
                 nusselt.random.light_random(sampler, 0, 0, 0, count)
+
+
+def test_wrong_frames_and_vectors_are_errors():
+    for turn in (geometry.to_shading, geometry.to_world):
+        for error, message, arguments in [(ValueError, r"frames must have the shape \(..., 3, 3\), not \(3, 2\)", (np.ones((3, 2)), [1, 2, 3])),
+                                          (ValueError, r"v must have the shape \(..., 3\), not \(2,\)", (np.eye(3), [1, 2])),
+                                          (TypeError, "complex", (np.eye(3) * 1j, [1, 2, 3]))]:
+            with pytest.raises(error, match=message):
+                turn(*arguments)
+    assert geometry.to_world(np.eye(3, dtype=np.float32), np.ones(3, np.float32)).dtype == np.float32

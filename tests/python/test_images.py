@@ -2,6 +2,7 @@
 import copy
 import json
 import os
+import pickle
 import subprocess
 
 import numpy as np
@@ -69,8 +70,15 @@ def test_flip_maps_show_where_images_differ(pair):
 def test_wrong_images_are_errors(pair, tmp_path):
     image, reference = pair
     pixels = reference
-    with pytest.raises(RuntimeError, match="32.*16|16.*32"):
-        nusselt.rmse(image[:, :16], reference)
+    for metric in (nusselt.rmse, nusselt.flip, images.hdr_flip, images.psnr, images.ssim):
+        with pytest.raises(ValueError, match=r"one size, not \(24, 16\) and \(24, 32\)"):
+            metric(image[:, :16], reference)
+        with pytest.raises(TypeError, match="pixels must be real numbers, not complex"):
+            metric(image * 1j, reference)
+    for options, message in [({"pixels_per_degree": 0}, "between 1 and 1000, not 0"), ({"exposure": np.nan}, "exposure must be finite"),
+                             ({"pixels_per_degree": 1e9}, "between 1 and 1000"), ({"exposure": np.inf}, "exposure must be finite")]:
+        with pytest.raises(ValueError, match=message):
+            nusselt.flip(image, reference, **options)
     with pytest.raises(ValueError, match=r"\(height, width, 3\), not \(24, 32\)"):
         nusselt.rmse(image[..., 0], reference)
     layered = nusselt.Image({"": pixels[:, :8], "depth": pixels[:, :8, :1]}, metadata={"samples": "1"})
@@ -79,16 +87,56 @@ def test_wrong_images_are_errors(pair, tmp_path):
             ("layers", {"": pixels[:, :8], "depth": pixels[:2]}, r"layer 'depth' must have the shape \(24, 8, 1\)"),
             ("layers", {"": pixels[0, :8]}, r"layer '' .*, not \(8, 3\)"),
             ("channels", {"": ["R", "G"], "depth": ["Z"]}, r"shape \(24, 8, 2\)"),
-            ("layers", {}, "an image must have a layer")]:
+            ("layers", {}, "an image must have a layer"),
+            ("data_window", (0, 0, 8), "data_window must be x, y, width and height"),
+            ("data_window", (0, 0, 8, 2**31), "data_window must be below 2.31")]:
         wrong = copy.copy(layered)
         setattr(wrong, attribute, value)
         with pytest.raises(ValueError, match=message):
             images.merge({"wrong": wrong})
         with pytest.raises(ValueError, match=message):
             wrong.save(tmp_path / "wrong.exr")
+    for attribute, value, message in [
+            ("data_window", (0, 0, 8.5, 24), "data_window must be a whole number, not 8.5"),
+            ("metadata", {"samples": 1}, r"metadata\['samples'\] must be a text, not 1"),
+            ("channels", {"": ["R", "G", 3], "depth": ["Z"]}, "channels of layer '' must be a text, not 3"),
+            ("layers", {"": pixels[:, :8] * 1j, "depth": pixels[:, :8, :1]}, "layer '' must be real numbers, not complex")]:
+        wrong = copy.copy(layered)
+        setattr(wrong, attribute, value)
+        with pytest.raises(TypeError, match=message):
+            wrong.save(tmp_path / "wrong.exr")
+    for extension in ("png", "hdr"):
+        with pytest.raises(ValueError, match=r"\(height, width, 3\), not \(24, 8, 1\)"):
+            nusselt.Image({"": pixels[:, :8, :1]}).save(tmp_path / f"grey.{extension}")
+        with pytest.raises(ValueError, match="no picture, but the layers depth"):
+            nusselt.Image({"depth": pixels[:, :8, :1]}).save(tmp_path / f"depth.{extension}")
+    for wrong in ([layered], {"a": pixels}):
+        with pytest.raises(TypeError, match="images must be a dictionary of Images"):
+            images.merge(wrong)
+    with pytest.raises(ValueError, match="must not have zeros"):
+        nusselt.Image.load(f"{tmp_path}/image.exr\0")
     with pytest.raises(RuntimeError, match="missing.exr"):
         nusselt.Image.load(tmp_path / "missing.exr")
     with pytest.raises(RuntimeError, match="image.gif"):
         images.write(tmp_path / "image.gif", image)
     with pytest.raises(ValueError, match="one size"):
         nusselt.Image({"": image, "small": image[:5]})
+
+
+def test_files_need_not_be_in_unicode(pair, tmp_path):
+    """Neither their names nor the texts in them: those of other programs may be in any encoding."""
+    _, pixels = pair
+    name = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.exr")
+    image = nusselt.Image({"": pixels, os.fsdecode(b"\xfe"): pixels}, metadata={"owner": os.fsdecode(b"J\xfcrgen")})
+    image.save(name)
+    read = nusselt.Image.load(name)
+    assert read.metadata == image.metadata and set(read.layers) == set(image.layers)
+    assert np.array_equal(images.read(name), pixels)
+    with pytest.raises(RuntimeError, match=r"cannot read '.*\\xfd.exr'"):
+        images.read(os.fsdecode(os.fsencode(tmp_path) + b"/\xfd.exr"))
+
+
+def test_images_can_be_pickled(pair):
+    _, pixels = pair
+    image = pickle.loads(pickle.dumps(nusselt.Image({"": pixels}, metadata={"a": "b"})))
+    assert np.array_equal(image.rgb, pixels) and image.metadata == {"a": "b"}

@@ -84,6 +84,14 @@ def test_parts_join_to_the_whole_image(room):
         nusselt.images.merge({"part 1": parts["part 1"], "again": parts["part 1"]})
 
 
+def test_parts_that_are_missing_are_named(room):
+    parts = {str(i): nusselt.render(room, resolution=SIZE, part=(i, 3)) for i in (1, 2)}
+    with pytest.raises(RuntimeError, match="some pixels have no samples: part 3/3 is missing"):
+        nusselt.images.merge(parts)
+    image = nusselt.images.merge(parts, partial=True)
+    assert (image.layers["samples"] == 0).any() and image.rgb.any()
+
+
 def test_files_of_parts_are_those_of_the_command(room, scenes, program, tmp_path):
     paths = [tmp_path / f"{i}.exr" for i in (1, 2)]
     for i, path in enumerate(paths, 1):
@@ -117,24 +125,50 @@ def test_the_command_has_the_settings_of_python(program):
     ({"technique": "best"}, "technique: unknown setting 'best'; use one of area"),
     ({"strategies": "diffuse+ltc", "technique": "area"}, "not supported with technique area"),
     ({"samples": 0}, "must lie between 1 and"),
-    ({"samples": "many"}, "samples must be a number that fits, not 'many'"),
+    ({"samples": "many"}, "samples must be a whole number below 2.31, not 'many'"),
+    ({"samples": 2**31}, "samples must be a whole number below 2.31, not 2147483648"),
+    ({"seed": -1}, "seed must be a whole number from 0 to 2.32 - 1, not -1"),
+    ({"visibility_estimate": "high"}, "visibility_estimate must be a number, not 'high'"),
     ({"lines": 4}, "lines needs light_samples=\"lines\""),
-    ({"layers": "depths"}, "unknown setting 'depths'"),
+    ({"layers": "depths"}, "layers: unknown setting 'depths'"),
+    ({"layers": ["all", "depths"]}, "layers: unknown setting 'depths'"),
+    ({"resolution": 64}, r"resolution must be the pair \(width, height\), not 64"),
+    ({"isa": "mmx"}, "isa: unknown instruction set 'mmx'"),
     ({"threads": 0}, "threads must be at least 1"),
     ({"part": (3, 2)}, "found 3 of 2"),
     ({"part": "1/2"}, "part must be a pair of whole numbers, not '1/2'"),
     ({"layers": 3}, "layers must be a name or a list of names, not 3"),
-    ({"backend": "cuda"}, "backend: unknown renderer 'cuda'; use cpu or vulkan"),
+    ({"backend": "cuda"}, "backend: unknown renderer 'cuda'; use cpu, vulkan or auto"),
     ({"backend": "vulkan", "isa": "sse42"}, "isa is not supported with backend=\"vulkan\""),
     ({"shadow_rays": "none"}, "shadow_rays is not supported with backend=\"cpu\"")])
 def test_wrong_settings_are_errors(settings, message, room):
     with pytest.raises(ValueError, match=message):
-        nusselt.render(room, resolution=(8, 8), **settings)
+        nusselt.render(room, **{"resolution": (8, 8), **settings})
 
 
-def test_an_unknown_instruction_set_is_an_error(room):
-    with pytest.raises(RuntimeError, match="unknown instruction set 'mmx'"):
-        nusselt.render(room, resolution=(8, 8), isa="mmx")
+def test_settings_of_wrong_types_are_errors(room, scenes):
+    for settings, message in [({"isa": 5}, "isa must be a text, not 5"), ({"backend": None}, "backend must be a text"),
+                              ({"resolution": (8.5, 8)}, "width must be a whole number, not 8.5"),
+                              ({"backend": "vulkan", "device": 0.5}, "device must be a whole number")]:
+        with pytest.raises(TypeError, match=message):
+            nusselt.render(room, **settings)
+    with pytest.raises(TypeError, match=r"scene must be a Scene, which nusselt.load\(\) makes of a file, not '.*room.pbrt'"):
+        nusselt.render(str(scenes / "room.pbrt"))
+
+
+def test_the_renderer_is_chosen_by_what_is_there(room):
+    """The bits of the processor, unless there is a GPU that is no software."""
+    image = nusselt.render(room, resolution=SIZE, backend="auto", layers="albedo")  # which GPUs do not support
+    assert_same(image, nusselt.render(room, resolution=SIZE, layers="albedo"))
+    image = nusselt.render(room, resolution=SIZE, backend="auto", isa="sse42")
+    assert_same(image, nusselt.render(room, resolution=SIZE, isa="sse42"))
+
+
+@pytest.mark.parametrize("name", ["television", "neon", "street"])
+def test_lights_whose_radiance_varies_have_the_bits_of_the_command(name, scenes, program, tmp_path):
+    path = scenes / f"{name}.pbrt"
+    expected = command(program, tmp_path / "image.exr", path, "--spp", "2", "--layers", "lights")
+    assert_same(nusselt.render(nusselt.load(path), 2, resolution=SIZE, layers="lights"), expected)
 
 
 def test_gpus_are_chosen_as_by_the_command(room, scenes, program, tmp_path):
@@ -157,6 +191,24 @@ def test_progress_grows_and_can_stop_a_rendering(room):
     for answer in (False, np.False_, 0):
         image = nusselt.render(room, 1 << 16, progress=lambda fraction: answer)
         assert 0 <= image.finished < 1 and image.metadata["finished_fraction"] != "1"
+
+
+@pytest.mark.parametrize("work", ["nusselt.render(scene, 1 << 18)", "nusselt.render(scene, 1 << 18, progress=lambda _: None)",
+                                  "while True: light.sample(u)", "while True: nusselt.render(scene, 1, resolution=(64, 36))"])
+def test_daemons_do_not_stop_python_from_ending(work, scenes):
+    script = f"""
+import nusselt, numpy, threading, time
+scene = nusselt.load({str(scenes / "room.pbrt")!r})
+light = nusselt.PolygonArea([[-1, -1, 1], [1, -1, 1], [1, 1, 1]])
+u = numpy.full((100000, 2), 0.5)
+def work():
+    {work}
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.3)
+print("ended")
+"""
+    child = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert (child.returncode, child.stdout) == (0, "ended\n"), child.stderr
 
 
 def test_exceptions_of_progress_end_the_rendering(room):

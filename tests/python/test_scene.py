@@ -1,5 +1,9 @@
 """Scenes: what they contain, and edits of lights, materials and camera."""
+import copy
 import json
+import os
+import pickle
+import shutil
 import threading
 
 import numpy as np
@@ -57,7 +61,56 @@ def test_wrong_edits_are_errors_and_change_nothing(room):
                            ({"add": "lamp"}, "must have a shape")]:
         with pytest.raises(RuntimeError, match=message):
             room.edit([entry])
+    for error, message, entries in [(ValueError, "entries must not have numbers that are infinite or NaN", [{"light": 0, "move": [np.nan, 0, 0]}]),
+                                    (TypeError, "a set is nothing that light rigs", [{"light": 0, "move": {1, 2, 3}}]),
+                                    (TypeError, "must be lists of entries", {"light": 0})]:
+        with pytest.raises(error, match=message):
+            room.edit(entries)
+    for size in ((1.5, 2), ("64", 2), (2**31, 1), (None, 1)):
+        with pytest.raises((TypeError, ValueError), match="width must be"):
+            room.resize(*size)
     assert room.fingerprint == before
+
+
+def test_edits_take_numbers_and_arrays_of_numpy(room):
+    other = room.copy()
+    room.edit([{"light": np.int64(0), "move": np.array([0, 0.5, 0]), "scale_radiance": np.float32(2)}])
+    other.edit([{"light": 0, "move": [0, 0.5, 0], "scale_radiance": 2}])
+    assert room.fingerprint == other.fingerprint
+    view = room.camera
+    view["camera"]["origin"] = np.array(view["camera"]["origin"]) + 1
+    room.camera = view
+    assert room.camera["camera"]["origin"] == view["camera"]["origin"].tolist()
+
+
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda scene: scene.copy()])
+def test_copies_are_edited_alone(duplicate, room):
+    before = room.fingerprint
+    other = duplicate(room)
+    assert other.fingerprint == before
+    other.edit([{"light": 0, "scale_radiance": 2}])
+    assert room.fingerprint == before != other.fingerprint
+
+
+def test_scenes_say_why_they_are_not_pickled(room):
+    with pytest.raises(TypeError, match="load it in each process"):
+        pickle.dumps(room)
+
+
+def test_names_of_files_need_not_be_unicode(scenes, tmp_path):
+    shutil.copytree(scenes / "shapes", tmp_path / "shapes")
+    name = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.pbrt")
+    shutil.copy(scenes / "room.pbrt", name)
+    room = nusselt.load(name)
+    assert room.files[0] == name
+    before = room.lights
+    room.edit(before)
+    assert room.lights == before
+    assert isinstance(room.light_report(), str) and isinstance(repr(room), str)
+    with pytest.raises(RuntimeError, match=r"xfe.pbrt': no such file"):
+        nusselt.load(os.fsdecode(os.fsencode(tmp_path) + b"/\xfe.pbrt"))
+    with pytest.raises(ValueError, match="must not have zeros"):
+        nusselt.load("room\0.pbrt")
 
 
 def test_edits_of_several_threads_all_count(room):

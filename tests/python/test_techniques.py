@@ -1,4 +1,6 @@
 """Techniques over arrays: shapes, types, memory, threads and what the numbers mean."""
+import copy
+import pickle
 import threading
 
 import numpy as np
@@ -241,6 +243,7 @@ def test_wrong_arguments_are_errors(square):
             (ValueError, "broadcast", lambda: nusselt.LineArea(np.zeros((2, 3)), np.zeros((3, 3)))),
             (ValueError, "out: pdf must be a float32 array of the shape", lambda: lights.sample([0, 0], out=[None, np.empty(2), None])),
             (ValueError, "arrays for wi, pdf and p, not 2", lambda: lights.sample([0, 0], out=[None, None])),
+            (TypeError, "out must be a list of arrays for wi, pdf and p, not int", lambda: lights.sample([0, 0], out=5)),
             (ValueError, "threads must be at least 1", lambda: lights.sample([0, 0], threads=0))]:
         with pytest.raises(error, match=message):
             call()
@@ -260,3 +263,21 @@ def test_errors_of_float32_are_small(square, rng):
     turned = nusselt.accuracy.backward_error(exact, u + 1e-3, sample)
     assert np.median(turned) > 9e-4, "a wrong random number must be noticed"
     assert nusselt.accuracy.density_error(exact, sample).max() < 1e-5
+
+
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda lights: pickle.loads(pickle.dumps(lights))])
+def test_copies_have_the_same_bits(duplicate, square, rng):
+    u = rng.random((7, 3, 2))
+    for lights in (nusselt.PolygonArea(square + rng.random((3, 1, 3)), dtype=np.float32), make("CylinderArea")):
+        other = duplicate(lights)
+        assert (other.shape, other.dtype) == (lights.shape, lights.dtype)
+        for ours, theirs in zip(other.sample(u), lights.sample(u)):
+            assert np.array_equal(ours, theirs)
+
+
+def test_what_arrays_were_made_for_stays(square):
+    """With another shape, functions would read lights that are not there."""
+    lights = nusselt.PolygonArea(np.stack([square, square]))
+    for attribute, value in (("shape", (1000,)), ("dtype", np.dtype(np.float32))):
+        with pytest.raises(AttributeError):
+            setattr(lights, attribute, value)
