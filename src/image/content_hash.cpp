@@ -53,7 +53,11 @@ void add_content_hash(LayeredImage& image) { image.metadata[kContentHashKey] = c
 
 void check_content_hash(const LayeredImage& image) {
     const auto found = image.metadata.find(kContentHashKey);
-    if (found != image.metadata.end() && found->second != content_hash(image))
+    if (found == image.metadata.end())
+        throw std::runtime_error(
+            "its hash is missing: the file is damaged, or another program or an older version has "
+            "written it; render it again");
+    if (found->second != content_hash(image))
         throw std::runtime_error("its pixels are not those that were written: the file is damaged or "
                                  "incomplete, or another program has changed it; render it again");
 }

@@ -21,7 +21,8 @@ inline constexpr const char* kContentHashKey = "content_hash";
 /// Writes the hash into the metadata. Whoever changes the image afterwards does that again, or erases the key.
 void add_content_hash(LayeredImage& image);
 
-/// \throws std::runtime_error if the image has a hash, but not that of its content
+/// \throws std::runtime_error if the image does not have the hash of its content. One without a hash may be damaged, too: where
+///                            damage changes the key
 void check_content_hash(const LayeredImage& image);
 
 } // namespace nusselt::image

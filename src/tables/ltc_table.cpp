@@ -89,8 +89,10 @@ std::uint64_t checksum_of(std::string_view bytes) {
 
 LtcTable load_ltc_table(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
+    // Linux opens folders, too.
+    if (!file || std::filesystem::is_directory(path))
+        throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    if (!file) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
     return decode(bytes, path.string());
 }
 

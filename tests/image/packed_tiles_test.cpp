@@ -190,6 +190,12 @@ TEST_F(PackedTilesTest, AHashProtectsPixelsAndTheirPlaces) {
             error_of([&] { (void)read_layers(in_folder("part.exr")); }).find("not those that were written"),
             std::string::npos);
     }
+    // Damage may change the key, too.
+    LayeredImage keyless = hole;
+    keyless.metadata.erase(kContentHashKey);
+    write_layers(in_folder("part.exr"), keyless);
+    EXPECT_NE(error_of([&] { (void)read_layers(in_folder("part.exr")); }).find("hash is missing"),
+              std::string::npos);
     // What hashes do not cover may change: times, for example.
     LayeredImage later = part;
     later.metadata["render_seconds"] = "5";
@@ -215,6 +221,7 @@ TEST_F(PackedTilesTest, SmallFilesCannotClaimHugeImages) {
     one_tile.add(0, 0);
     LayeredImage part{one_tile.window(), {0, 0, 16000, 16000}, {}, {{kTilesKey, one_tile.text()}}, {}};
     part.layers = {{"", {"R", "G", "B"}, std::vector<float>(3 * 16 * 16)}};
+    add_content_hash(part);
     write_layers(in_folder("part.exr"), part);
     EXPECT_NE(error_of([&] { (void)read_image(in_folder("part.exr")); }).find("1/16384"), std::string::npos);
     EXPECT_EQ(read_packed_layers(in_folder("part.exr")).layers.at(0).data.size(), 3u * 16 * 16);

@@ -32,7 +32,7 @@ class EnginesTest(unittest.TestCase):
 
     def run_in(self, *command, **options):
         words = [str(word) for word in command]
-        return subprocess.run(words, cwd=self.folder, capture_output=True, text=True, **options)
+        return subprocess.run(words, cwd=self.folder, capture_output=True, text=True, errors="replace", **options)
 
     def submit(self, *words, parts=4, engine="parallel", options=OPTIONS):
         return self.run_in(NUSSELT, "submit", SCENE, "--parts", parts, "--engine", engine, "-o", "image.exr", *words,
@@ -117,6 +117,21 @@ class EnginesTest(unittest.TestCase):
         self.expect_success(self.run_in(NUSSELT, "submit", SCENE, "--parts", 2, "--engine", "parallel", "-o",
                                         "image.exr", "--run", "--", *OPTIONS, preexec_fn=ignore))
 
+    def test_what_was_killed_is_said(self):
+        self.expect_success(self.submit())
+        job = self.folder / "image.job"
+        # Of a job without the program that merges.
+        text = (job / "gather.txt").read_text()
+        (job / "gather.txt").write_text("kill -9 $$\n")
+        self.run_in(job / "start.sh")
+        self.assertIn("signal 9 ended: kill -9 $$", (job / "result.txt").read_text())
+        (job / "gather.txt").write_text(text)
+        start = (job / "start.sh").read_text()
+        (job / "start.sh").write_text("kill -9 $$\n")
+        self.expect_error(self.submit("--run", "-q"), "signal 9 ended '")
+        (job / "start.sh").write_text(start)
+        self.expect_success(self.submit("--run", "-q"))
+
     def test_templates_are_printed(self):
         outcome = self.submit(engine="print")
         self.expect_success(outcome)
@@ -132,6 +147,10 @@ class EnginesTest(unittest.TestCase):
         outcome = self.run_in(NUSSELT, "submit", SCENE, "--parts", 4, "--engine", "print", "-o", "a" * 150 + ".exr")
         self.assertEqual(len(json.loads(outcome.stdout)["name"]), 128)
         self.expect_error(self.submit("--job", "{{job", engine="print"), "choose another folder")
+        name = "ü" * 100
+        outcome = self.run_in(NUSSELT, "submit", SCENE, "--parts", 4, "--engine", "print", "-o", f"{name}.exr")
+        self.assertTrue(f"nusselt-{name}".startswith(json.loads(outcome.stdout)["name"]))
+        outcome = self.submit(engine="print")
         script = tasks["script"]["actions"]["onRun"]
         for number in range(1, 5):
             self.expect_success(self.run_in(script["command"], *(word.replace("{{Task.Param.Task}}", str(number))
@@ -141,7 +160,11 @@ class EnginesTest(unittest.TestCase):
 
     def test_mistakes_are_found_before_the_job_is_written(self):
         for words, options, code, text in (
-                ((), ["--bad", "3"], 2, "unknown '--bad'"), ((), ["-o", "b.exr"], 2, "use the option -o of submit"),
+                ((), ["--bad", "3"], 2, "unknown '--bad'"), ((), ["-h"], 2, "unknown '-h'"),
+                (("--job", "a\nb"), [], 1, "has a line break, which jobs do not support"),
+                (("--job", os.fsdecode(b"\xff")), [], 1, "has characters that are no UTF-8, which jobs do not support"),
+                (("--job", "{}"), [], 1, "has {, which GNU parallel replaces"),
+                ((), ["-o", "b.exr"], 2, "use the option -o of submit"),
                 ((), ["-qo", "b.exr"], 2, "use the option -o of submit"), ((), ["--json=a"], 2, "--json"),
                 ((), ["--part", "1/2"], 2, "--parts"), ((), ["--spp", "x"], 2, "--spp"),
                 ((), ["--threads", "2"], 2, "--threads"), ((), ["--backend", "vulkan"], 2, "--backend"),
@@ -341,7 +364,20 @@ class EnginesTest(unittest.TestCase):
             outcome = self.run_in(*images, "--technique", "area", "--", *options)
             self.expect_error(outcome, "not supported behind --", 2)
         self.expect_error(self.run_in(*images, "--technique", "area", "--technique", "area"), "is there twice", 2)
+        outcome = self.run_in(LAB, "submit", "images", "--scene", SCENE, "--technique", "area", "--engine", "parallel", "-o",
+                              "/dev/null/sweep")
+        self.expect_error(outcome, "cannot create the folder '/dev/null/sweep': Not a directory; choose another one")
+        for name in ("fuzz", "worst-case"):
+            shards = [LAB, "submit", name, "--engine", "parallel", "-o"]
+            for options in (["--json", "a"], ["--first", "3"], ["--count", "9"], ["--seed", "3"], ["--isa", "avx2"],
+                            ["--threads", "2"], ["--starts=4"], ["--state", "a"]):
+                self.expect_error(self.run_in(*shards, "x.json", "--", *options), "not supported behind --", 2)
+            self.expect_error(self.run_in(*shards, "missing/x.json"), "the folder 'missing' does not exist")
+        self.expect_error(self.run_in(LAB, "gather", "-o", "x.json", "/"), "'/' is a folder")
         self.assertEqual(list(self.folder.iterdir()), [])
+        # What only tasks find out is what the command says.
+        outcome = self.run_in(*images, "--technique", "area", "--run", "-q", "--", "--bad")
+        self.expect_error(outcome, "1 of 1 tasks left no result: 1 (the first one: nusselt: unknown option '--bad'")
 
     def test_shards_of_the_fuzzer_are_one_run(self):
         outcome = self.run_in(LAB, "submit", "fuzz", "--shards", 3, "--count", 1000, "--engine", "parallel", "--run",

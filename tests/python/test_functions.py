@@ -92,6 +92,8 @@ def test_tables_are_those_of_the_library():
 
 
 def test_a_file_that_is_no_table_is_an_error(tmp_path):
+    with pytest.raises(RuntimeError, match=f"{tmp_path}: cannot be read"):
+        ltc.LtcTable.load(tmp_path)
     path = tmp_path / "table.bin"
     path.write_bytes(b"no table")
     with pytest.raises(RuntimeError, match="table.bin"):

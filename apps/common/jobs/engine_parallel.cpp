@@ -1,6 +1,8 @@
 #include "engine.h"
 #include "script_text.h"
 
+#include <stdexcept>
+
 namespace nusselt::app {
 
 namespace {
@@ -48,7 +50,11 @@ flock -n -E 3 engine.lock true
 [ $? -eq 3 ]
 )sh";
 
+/// \throws std::runtime_error if GNU parallel would replace a part of the name of the folder
 std::vector<JobFile> files(const Job& job) {
+    if (job.folder.string().find('{') != std::string::npos)
+        throw std::runtime_error("'" + job.folder.string() +
+                                 "' has {, which GNU parallel replaces; choose another folder with --job");
     return {{"start.sh", filled(kStart, {{"threads", std::to_string(job.threads)}})}, {"alive.sh", kAlive}};
 }
 

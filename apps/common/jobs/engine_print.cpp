@@ -14,6 +14,13 @@ nlohmann::ordered_json step(const Job& job, const std::string& name, const std::
     return {{"name", name}, {"script", {{"actions", {{"onRun", run}}}}}};
 }
 
+/// At most so many bytes of a text, which end between two characters.
+std::string beginning_of(const std::string& text, std::size_t most) {
+    if (text.size() <= most) return text;
+    while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) --most;
+    return text.substr(0, most);
+}
+
 /// A job template of the Open Job Description 2023-09, which AWS Deadline Cloud and others read.
 /// \throws std::runtime_error if the template would mean something else
 std::vector<JobFile> files(const Job& job) {
@@ -32,7 +39,7 @@ std::vector<JobFile> files(const Job& job) {
     // Here, a task that fails for good stops the job, and the engine shows that; there is no step after failed ones.
     gather["dependencies"] = {{{"dependsOn", "Tasks"}}};
     const nlohmann::ordered_json job_template = {{"specificationVersion", "jobtemplate-2023-09"},
-                                                 {"name", job.name.substr(0, kMostNameBytes)},
+                                                 {"name", beginning_of(job.name, kMostNameBytes)},
                                                  {"steps", {tasks, gather}}};
     return {{"template.json", job_template.dump(2) + "\n"}};
 }

@@ -110,6 +110,10 @@ std::string text_of(const std::filesystem::path& log) {
 
 /// Why start.sh has failed.
 std::string reason_of(int exit_code, const Job& job, const std::filesystem::path& log) {
+    if (exit_code > 128)
+        return fmt::format(
+            "signal {} ended '{}'; run the same command again, which does only what is missing",
+            exit_code - 128, (job.folder / "start.sh").string());
     const std::string text = text_of(log);
     return text.empty() ? fmt::format("'{}' ended with code {}; start it by hand to see more",
                                       (job.folder / "start.sh").string(), exit_code)

@@ -42,12 +42,24 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
                                      std::filesystem::perm_options::add);
 }
 
-/// Lists are read line by line.
+bool is_utf8(const std::string& text) {
+    try {
+        static_cast<void>(nlohmann::ordered_json(text).dump());
+        return true;
+    } catch (const nlohmann::ordered_json::type_error&) {
+        return false;
+    }
+}
+
+/// Lists are read line by line, and manifests are in UTF-8.
 void check_words(const Words& words) {
-    for (const std::string& word : words)
-        if (word.find('\n') != std::string::npos)
-            throw std::runtime_error("'" + word +
-                                     "' has a line break, which jobs do not support; rename the file");
+    for (const std::string& word : words) {
+        const bool has_break = word.find('\n') != std::string::npos;
+        if (!has_break && is_utf8(word)) continue;
+        throw std::runtime_error("'" + word + "' has " +
+                                 (has_break ? "a line break" : "characters that are no UTF-8") +
+                                 ", which jobs do not support; rename the file");
+    }
 }
 
 void check_all_words(const Job& job) {
@@ -149,8 +161,8 @@ nlohmann::ordered_json manifest_of(const Job& job, const Engine& engine) {
 }
 
 void write_job(const Job& job, const Engine& engine) {
-    const nlohmann::ordered_json manifest = manifest_of(job, engine);
     check_all_words(job);
+    const nlohmann::ordered_json manifest = manifest_of(job, engine);
     const std::vector<JobFile> engine_files = engine.files(job);
     const bool goes_on = has_job(job.folder, manifest);
     std::error_code error;

@@ -53,7 +53,7 @@ inline constexpr const char* kGatherScript = R"sh(#!/bin/sh
 # code and a message.
 cd @folder@ || exit 1
 report() {
-    { printf '%s\n' "$1" && printf '%s\n' "$2" | tr '\n' ' '; } >result.part && mv result.part result.txt
+    { printf '%s\n' "$1" && printf '%s' "$2" | tr '\n' ' '; } >result.part && mv result.part result.txt
     exit "$1"
 }
 ./missing.sh >missing.txt || report 1 "cannot write to $PWD; free space, then run the same command again"
@@ -73,7 +73,7 @@ if [ "$count" -gt 0 ]; then
         printf '%s\n' "no result of $count tasks: $missing; starting them again" >>logs/gather.txt
         exec ./start.sh
     fi
-    reason=$(grep 'error: ' "logs/$(head -n 1 missing.txt).txt" 2>/dev/null | tail -n 1)
+    reason=$(grep -E '^nusselt[a-z-]*: |error: ' "logs/$(head -n 1 missing.txt).txt" 2>/dev/null | tail -n 1)
     report 1 "$count of @tasks@ tasks left no result: $missing${reason:+ (the first one: $reason)}; see $PWD/logs, \
 then run the same command again, which does only these"
 fi
@@ -83,6 +83,7 @@ while IFS= read -r command; do
     code=$?
     cat @folder@/logs/gather-command.txt >>@folder@/logs/gather.txt
     if [ $code -ne 0 ]; then
+        [ $code -le 128 ] || printf '%s\n' "signal $((code - 128)) ended: $command" >>@folder@/logs/gather-command.txt
         cd @folder@ && report $code "$(cat logs/gather-command.txt)"
     fi
 done <@folder@/gather.txt

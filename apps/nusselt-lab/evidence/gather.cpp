@@ -36,6 +36,8 @@ const std::set<std::string> kSettingsOfShards = {"seed", "first", "count", "star
 
 /// \throws std::runtime_error naming the file
 Json read_results(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw std::runtime_error(fmt::format("'{}' is a folder; name files of shards", path.string()));
     std::ifstream stream(path);
     Json json = Json::parse(stream, nullptr, false);
     const auto is_table = [](const Json& table) {

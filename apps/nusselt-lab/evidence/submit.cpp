@@ -5,6 +5,7 @@
 #include "apps/common/jobs/refused_options.h"
 #include "apps/common/render_setup.h"
 #include "apps/common/validators.h"
+#include "base/atomic_file.h"
 #include "base/file_checks.h"
 #include "base/isa.h"
 #include "base/words.h"
@@ -19,6 +20,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 namespace nusselt::app {
 
@@ -59,6 +61,14 @@ void add_shard(Job& job, const Words& command, const SubmitShardsOptions& option
 }
 
 int submit_shards(Job job, const SubmitShardsOptions& options) {
+    refuse_options(options.options, {{"--count", "use the option --count of submit"},
+                                     {"--starts", "use the option --starts of submit"},
+                                     {"--seed", "use the option --seed of submit"},
+                                     {"--isa", "all tasks use the one of this machine"},
+                                     {"--first", "submit divides the work itself"},
+                                     {"--state", "each task has one"},
+                                     {"--convergence", "shards have too few starts for it"}});
+    base::check_writable(options.output);
     add_program_input(job);
     add_file_inputs(job, options.options);
     GatherStep gather{{program_path().string(), "gather", "-o", job.outputs.front().string()}, {}};
@@ -150,7 +160,12 @@ int run_submit_images(const SubmitImagesOptions& options) {
             job.outputs.push_back(image);
         }
     }
-    std::filesystem::create_directories(folder);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error(
+            fmt::format("cannot create the folder '{}': {}; choose another one with --output",
+                        folder.string(), error.message()));
     return submit_job(std::move(job), options.job);
 }
 

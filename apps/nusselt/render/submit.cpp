@@ -35,6 +35,7 @@ RenderOptions read_render_options(const SubmitRenderOptions& options) {
     refuse_options(options.render_options, {{"--part", "use the option --parts of submit"}});
     RenderOptions render;
     CLI::App parser("render");
+    parser.set_help_flag(); // -h is an option of submit
     parser.option_defaults()->always_capture_default();
     add_render_options(parser, render);
     std::vector<std::string> words = options.render_options;

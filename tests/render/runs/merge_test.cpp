@@ -2,6 +2,7 @@
 
 #include "render/merge.h"
 
+#include "image/content_hash.h"
 #include "image/packed_tiles.h"
 
 #include <gtest/gtest.h>
@@ -29,8 +30,12 @@ LayeredImage make_input(const char* seed, float a, float b, float samples_a, flo
     return image;
 }
 
-LayeredImage merged(const std::vector<LayeredImage>& images) {
+/// Inputs without a hash get that of what they are, as if they had been written so.
+LayeredImage merged(std::vector<LayeredImage> images) {
     Merger merger;
+    for (LayeredImage& image : images)
+        if (image.metadata.count(image::kContentHashKey) + image.metadata.count(image::kPackedHashKey) == 0)
+            add_content_hash(image);
     for (std::size_t i = 0; i < images.size(); ++i) merger.add(images[i], "in" + std::to_string(i) + ".exr");
     return merger.result();
 }
@@ -175,6 +180,8 @@ TEST(Merge, RefusesImagesThatWereChanged) {
     moved.data.x = 1;
     for (const LayeredImage& wrong : {hole, more_samples, other_seed, moved})
         EXPECT_NE(problem_with({wrong}).find("not those that were written"), std::string::npos);
+    hole.metadata.erase(image::kContentHashKey);
+    EXPECT_THROW(Merger().add(hole, "in.exr"), std::runtime_error) << "damage may change the key, too";
     LayeredImage fewer_pixels = make_input("0", 1, 5, 8, 8);
     fewer_pixels.layers[0].data.pop_back();
     EXPECT_NE(problem_with({fewer_pixels}).find("other pixels than its window"), std::string::npos);
@@ -184,6 +191,7 @@ TEST(Merge, NamesNoPartsThatCannotBe) {
     for (const char* part : {"1/2000000000", "0/2", "3/2", "1/-5", "1/1048577"}) {
         LayeredImage image = make_input("0", 1, 0, 8, 0);
         image.metadata["part"] = part;
+        add_content_hash(image);
         Merger merger;
         merger.add(image, "in.exr");
         EXPECT_EQ(merger.what_is_missing(), "the parts do not divide the image in the same way") << part;
