@@ -169,6 +169,24 @@ class SlurmTest(unittest.TestCase):
             self.assertEqual((self.job / "results" / name).stat().st_mtime_ns, changed, name)
         self.expect_bits_of_one_run(size)
 
+    @unittest.skipUnless(IS_FULL, "takes half a minute")
+    def test_requeued_gathering(self):
+        """The step that merges is requeued while it merges: it starts again, and does not start the tasks again."""
+        size = "320x180"
+        code, _, err = self.finish(self.start(2, size))
+        self.assertEqual(code, 0, err)
+        gather = self.job / "gather.txt"
+        gather.write_text(": >merging-$SLURM_RESTART_COUNT; sleep 5; " + gather.read_text())
+        process = self.start(2, size, "--run")
+        cluster.wait_for((self.folder / "merging-").exists, 60, "the step that merges")
+        step = (self.job / "engine-gather.txt").read_text().strip()
+        self.cluster.output("scontrol", "requeue", step)
+        code, _, err = self.finish(process)
+        self.assertEqual(code, 0, err + str(self.logs()))
+        self.assertTrue((self.folder / "merging-1").exists())
+        self.assertEqual((self.job / "engine-jobs.txt").read_text().split()[-1], step)
+        self.expect_bits_of_one_run(size)
+
     def test_lost_controller(self):
         """Tasks go on without the controller, and so does the command."""
         size = "640x360"
