@@ -79,9 +79,13 @@ bool is_half_written(const std::filesystem::path& folder) {
     static const std::set<std::string> kFiles = {
         "tasks.txt", "outputs.txt", "gather.txt",     "task.sh", "missing.sh", "gather.sh",    "start.sh",
         "alive.sh",  "array.sh",    "gather-step.sh", "inputs",  "logs",       "template.json"};
-    std::error_code ignored;
+    std::error_code ignored, error;
     if (!std::filesystem::is_directory(folder, ignored)) return false;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::filesystem::directory_iterator entries(folder, error);
+    if (error)
+        throw std::runtime_error("cannot read the folder '" + folder.string() + "': " + error.message() +
+                                 "; choose another one with --job");
+    for (const auto& entry : entries) {
         const std::string name = entry.path().filename().string();
         const bool is_empty_folder = entry.is_directory() && std::filesystem::is_empty(entry.path(), ignored);
         const bool is_ours = kFiles.count(name) != 0 || name.starts_with(".nusselt-") ||
