@@ -91,7 +91,8 @@ class Image:
             layers.append((_arrays.text(name, "the name of a layer"), channels,
                            _arrays.real_array(data, f"layer '{name}'", np.float32)))
         return (layers, _texts(self.metadata, "metadata"), _window(self.data_window, "data_window"),
-                _window(self.display_window, "display_window"), _texts(self.foreign_metadata, "foreign_metadata"), self._tiles)
+                _window(self.display_window, "display_window"), _texts(self.foreign_metadata, "foreign_metadata"),
+                self._tiles)
 
     def __repr__(self) -> str:
         height, width = next(iter(self.layers.values())).shape[:2]
@@ -111,14 +112,15 @@ def merge(images: Mapping[str, Image], *, partial: bool = False) -> Image:
 
 
 def _texts(texts: Mapping[str, str], name: str) -> dict[str, str]:
-    return {_arrays.text(key, f"a key of {name}"): _arrays.text(value, f"{name}[{key!r}]") for key, value in texts.items()}
+    return {_arrays.text(key, f"a key of {name}"): _arrays.text(value, f"{name}[{key!r}]")
+            for key, value in texts.items()}
 
 
 def _window(window: Window, name: str) -> Window:
-    numbers = tuple(_arrays.whole_number(number, name) for number in window)
-    if len(numbers) != 4:
+    if len(window) != 4:
         raise ValueError(f"{name} must be x, y, width and height, not {window}")
-    return numbers
+    x, y, width, height = (_arrays.whole_number(number, name) for number in window)
+    return x, y, width, height
 
 
 def read(path: str | os.PathLike[str]) -> Array:
@@ -153,7 +155,8 @@ def rmse(image: Image | npt.ArrayLike, reference: Image | npt.ArrayLike) -> floa
 def flip(image: Image | npt.ArrayLike, reference: Image | npt.ArrayLike, *,
          pixels_per_degree: float = _core.pixels_per_degree, exposure: float = 0) -> Flip:
     """FLIP of the images as a display shows them after `exposure` stops (Andersson et al. 2020)."""
-    return Flip(*_core.flip(*_pair(image, reference), _pixel_density(pixels_per_degree), _arrays.finite(exposure, "exposure")))
+    return Flip(*_core.flip(*_pair(image, reference), _pixel_density(pixels_per_degree),
+                            _arrays.finite(exposure, "exposure")))
 
 
 def hdr_flip(image: Image | npt.ArrayLike, reference: Image | npt.ArrayLike, *,
@@ -182,7 +185,7 @@ def _pixels(image: Image | npt.ArrayLike) -> Array:
 def _pair(image: Image | npt.ArrayLike, reference: Image | npt.ArrayLike) -> tuple[Array, Array]:
     pixels, others = _pixels(image), _pixels(reference)
     if pixels.shape != others.shape:
-        raise ValueError(f"both images must have one size, not {pixels.shape[:2]} and {others.shape[:2]} (height, width)")
+        raise ValueError(f"both images must have one size (height, width), not {pixels.shape[:2]} and {others.shape[:2]}")
     return pixels, others
 
 

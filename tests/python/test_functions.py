@@ -160,9 +160,10 @@ def test_wrong_names_and_numbers_of_random_points_are_errors():
 
 def test_wrong_frames_and_vectors_are_errors():
     for turn in (geometry.to_shading, geometry.to_world):
-        for error, message, arguments in [(ValueError, r"frames must have the shape \(..., 3, 3\), not \(3, 2\)", (np.ones((3, 2)), [1, 2, 3])),
-                                          (ValueError, r"v must have the shape \(..., 3\), not \(2,\)", (np.eye(3), [1, 2])),
-                                          (TypeError, "complex", (np.eye(3) * 1j, [1, 2, 3]))]:
+        for error, message, arguments in [
+                (ValueError, r"frames must have the shape \(..., 3, 3\), not \(3, 2\)", (np.ones((3, 2)), [1, 2, 3])),
+                (ValueError, r"v must have the shape \(..., 3\), not \(2,\)", (np.eye(3), [1, 2])),
+                (TypeError, "complex", (np.eye(3) * 1j, [1, 2, 3]))]:
             with pytest.raises(error, match=message):
                 turn(*arguments)
     assert geometry.to_world(np.eye(3, dtype=np.float32), np.ones(3, np.float32)).dtype == np.float32

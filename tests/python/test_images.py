@@ -71,12 +71,14 @@ def test_wrong_images_are_errors(pair, tmp_path):
     image, reference = pair
     pixels = reference
     for metric in (nusselt.rmse, nusselt.flip, images.hdr_flip, images.psnr, images.ssim):
-        with pytest.raises(ValueError, match=r"one size, not \(24, 16\) and \(24, 32\)"):
+        with pytest.raises(ValueError, match=r"one size \(height, width\), not \(24, 16\) and \(24, 32\)"):
             metric(image[:, :16], reference)
         with pytest.raises(TypeError, match="pixels must be real numbers, not complex"):
             metric(image * 1j, reference)
-    for options, message in [({"pixels_per_degree": 0}, "between 1 and 1000, not 0"), ({"exposure": np.nan}, "exposure must be finite"),
-                             ({"pixels_per_degree": 1e9}, "between 1 and 1000"), ({"exposure": np.inf}, "exposure must be finite")]:
+    for options, message in [({"pixels_per_degree": 0}, "between 1 and 1000, not 0"),
+                             ({"pixels_per_degree": 1e9}, "between 1 and 1000"),
+                             ({"exposure": np.nan}, "exposure must be finite"),
+                             ({"exposure": np.inf}, "exposure must be finite")]:
         with pytest.raises(ValueError, match=message):
             nusselt.flip(image, reference, **options)
     with pytest.raises(ValueError, match=r"\(height, width, 3\), not \(24, 32\)"):

@@ -193,8 +193,9 @@ def test_progress_grows_and_can_stop_a_rendering(room):
         assert 0 <= image.finished < 1 and image.metadata["finished_fraction"] != "1"
 
 
-@pytest.mark.parametrize("work", ["nusselt.render(scene, 1 << 18)", "nusselt.render(scene, 1 << 18, progress=lambda _: None)",
-                                  "while True: light.sample(u)", "while True: nusselt.render(scene, 1, resolution=(64, 36))"])
+@pytest.mark.parametrize("work", [
+    "nusselt.render(scene, 1 << 18)", "nusselt.render(scene, 1 << 18, progress=lambda _: None)",
+    "while True: light.sample(u)", "while True: nusselt.render(scene, 1, resolution=(64, 36))"])
 def test_daemons_do_not_stop_python_from_ending(work, scenes):
     script = f"""
 import nusselt, numpy, threading, time

@@ -61,9 +61,10 @@ def test_wrong_edits_are_errors_and_change_nothing(room):
                            ({"add": "lamp"}, "must have a shape")]:
         with pytest.raises(RuntimeError, match=message):
             room.edit([entry])
-    for error, message, entries in [(ValueError, "entries must not have numbers that are infinite or NaN", [{"light": 0, "move": [np.nan, 0, 0]}]),
-                                    (TypeError, "a set is nothing that light rigs", [{"light": 0, "move": {1, 2, 3}}]),
-                                    (TypeError, "must be lists of entries", {"light": 0})]:
+    for error, message, entries in [
+            (ValueError, "entries must not have numbers that are infinite or NaN", [{"light": 0, "move": [np.nan, 0, 0]}]),
+            (TypeError, "a set is nothing that light rigs", [{"light": 0, "move": {1, 2, 3}}]),
+            (TypeError, "must be lists of entries", {"light": 0})]:
         with pytest.raises(error, match=message):
             room.edit(entries)
     for size in ((1.5, 2), ("64", 2), (2**31, 1), (None, 1)):
