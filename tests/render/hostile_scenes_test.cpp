@@ -1,7 +1,7 @@
 /// Degenerate geometry, lights and views: every pixel is finite and not negative, and no sample was rejected to
 /// make it so.
 
-#include "scenes.h"
+#include "lights/round_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +74,40 @@ void expect_sane_images(const scene::Scene& scene) {
                     << value << " with " << description_of(settings) << ", " << name_of(isa);
         }
     }
+}
+
+TEST(HostileScenes, RoundLights) {
+    using scene::RoundModel;
+    const auto add = [](scene::Scene& scene, const Float3& center, const Float3& u, const Float3& v,
+                        const Float3& w) {
+        for (const bool two_sided : {false, true})
+            add_round_light(scene, {.model = w == Float3{0, 0, 0} ? RoundModel::ellipse
+                                             : two_sided          ? RoundModel::hollow
+                                                                  : RoundModel::ellipsoid,
+                                    .center = center,
+                                    .u = u,
+                                    .v = v,
+                                    .w = w,
+                                    .radiance = {1, 1, 1},
+                                    .two_sided = two_sided});
+    };
+    const Float3 none = {0, 0, 0};
+    scene::Scene scene = make_floor(kSize);
+    scene.materials[0].model = scene::BrdfModel::frostbite;
+    scene.materials[0].roughness = 0.1f;
+    for (const float size : {1e-8f, 0.3f, 1e6f}) {
+        const Float3 x = {size, 0, 0}, y = {0, size, 0}, z = {0, 0, size};
+        add(scene, {0, 0, size}, x, y, z);         // touches the floor
+        add(scene, {0.1f, 0.2f, 0}, x, y, z);      // half below
+        add(scene, {0, 0, 0}, x, y, none);         // in the floor
+        add(scene, {0.3f, 0, 0}, x, z, none);      // seen edge-on from a line of the floor
+        add(scene, {0, 0, -2 * size}, x, y, none); // below
+    }
+    add(scene, {0, 0, 0.5f}, {1, 0, 0}, {0, 1e-4f, 0}, {0, 0, 1e-4f});
+    add(scene, {0, 0, 0.5f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-4f});
+    add(scene, {0, 0, 1e7f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    set_radius(scene);
+    expect_sane_images(scene);
 }
 
 TEST(HostileScenes, Nothing) {

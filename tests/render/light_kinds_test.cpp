@@ -237,6 +237,18 @@ TEST(LightRows, FulfilTheContract) {
                       .vertices = corners, .radiance = {1, 2, 3}, .two_sided = two_sided}),
                   none);
     for (const auto model :
+         {scene::RoundModel::ellipse, scene::RoundModel::ellipsoid, scene::RoundModel::hollow}) {
+        const scene::Float3 w =
+            model == scene::RoundModel::ellipse ? scene::Float3{0, 0, 0} : scene::Float3{0.2f, 0, 0.6f};
+        EXPECT_EQ(row_defects(scene::RoundLight{.model = model,
+                                                .center = {1, 2, 3},
+                                                .u = {0.5f, 0.1f, 0},
+                                                .v = {0, 0.7f, 0.1f},
+                                                .w = w,
+                                                .radiance = {1, 2, 3}}),
+                  none);
+    }
+    for (const auto model :
          {scene::TubeModel::linear, scene::TubeModel::solid, scene::TubeModel::open, scene::TubeModel::strip})
         EXPECT_EQ(row_defects(scene::LineLight{.start = {1, 2, 3},
                                                .end = {2, 2, 3},

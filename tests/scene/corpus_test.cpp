@@ -117,6 +117,24 @@ Double3 directions_of(const PointLight& light) {
     return {all, all, all};
 }
 
+/// The area of an ellipsoid or an ellipse, by quadrature over the unit sphere [m^2].
+double area_by_quadrature(const RoundLight& light) {
+    const Double3 u = to_double(light.u), v = to_double(light.v), w = to_double(light.w);
+    if (light.model == RoundModel::ellipse) return std::numbers::pi * length(cross(u, v));
+    constexpr int kSteps = 200;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double z = -1 + 2 * (i + 0.5) / kSteps;
+        for (int k = 0; k < kSteps; ++k) {
+            const double angle = 2 * std::numbers::pi * (k + 0.5) / kSteps;
+            const double rho = std::sqrt(1 - z * z);
+            sum += length((rho * std::cos(angle)) * cross(v, w) + (rho * std::sin(angle)) * cross(w, u) +
+                          z * cross(u, v));
+        }
+    }
+    return 4 * std::numbers::pi * sum / (kSteps * kSteps);
+}
+
 /// Emitted by all lights [W].
 Numbers power(const Scene& scene) {
     Double3 sum;
@@ -127,6 +145,9 @@ Numbers power(const Scene& scene) {
         sum = sum +
               (sides * std::numbers::pi * 0.5 * length(area_vector(vertices))) * to_double(light.radiance);
     }
+    for (const RoundLight& light : scene.lights.of<RoundLight>())
+        sum = sum + ((light.two_sided ? 2 : 1) * std::numbers::pi * area_by_quadrature(light)) *
+                        to_double(light.radiance);
     for (const LineLight& light : scene.lights.of<LineLight>()) {
         const double extent = length(to_double(light.end) - to_double(light.start));
         const double radius = light.radius;
@@ -235,6 +256,7 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
                                              {"textures", count(scene.textures)},
                                              {"emitters", count(scene.emitters)},
                                              {"polygon lights", count(scene.lights.of<PolygonLight>())},
+                                             {"round lights", count(scene.lights.of<RoundLight>())},
                                              {"line lights", count(scene.lights.of<LineLight>())},
                                              {"point lights", count(scene.lights.of<PointLight>())},
                                              {"distant lights", count(scene.lights.of<DistantLight>())},
@@ -247,6 +269,14 @@ std::map<std::string, Numbers> facts(const Scene& scene) {
         result["roughness " + material.name] = {material.roughness};
     }
     add_textures(scene, result);
+    for (std::size_t i = 0; i < scene.lights.of<RoundLight>().size(); ++i) {
+        const RoundLight& light = scene.lights.of<RoundLight>()[i];
+        const std::string key = light.model == RoundModel::ellipse     ? "ellipse "
+                                : light.model == RoundModel::ellipsoid ? "ellipsoid "
+                                                                       : "hollow ";
+        Numbers& numbers = result[key + std::to_string(i)];
+        for (const Float3& p : {light.center, light.u, light.v, light.w}) append(numbers, p);
+    }
     add_light_sources(scene, result);
     append(result["camera origin"], scene.camera.origin);
     append(result["camera origin right"], scene.camera.origin_right);

@@ -74,6 +74,7 @@ std::string bounds(const Scene& scene, const Predicate& is_counted) {
 
 void add_light_facts(const Scene& scene, std::map<std::string, std::string>& facts) {
     const std::vector<EditableLight> lights = editable_lights(scene);
+    const std::vector<std::uint32_t> emitters = light_emitters(scene);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const std::string of_light = " of light " + std::to_string(i);
         facts["name " + std::to_string(i)] = lights[i].name;
@@ -88,9 +89,8 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
         if (lights[i].triangles.empty()) continue;
         facts["material" + of_light] = text(lights[i].material);
         facts["bounds" + of_light] = bounds(scene, [&](std::size_t triangle) {
-            const std::int32_t polygon = scene.triangle_light[triangle];
-            return polygon >= 0 &&
-                   scene.lights.of<PolygonLight>()[static_cast<std::size_t>(polygon)].emitter == i;
+            const std::int32_t number = scene.triangle_light[triangle];
+            return number >= 0 && emitters[static_cast<std::size_t>(number)] == i;
         });
     }
     for (std::size_t i = 0; i < scene.lights.of<PolygonLight>().size(); ++i) {
@@ -102,6 +102,15 @@ void add_light_facts(const Scene& scene, std::map<std::string, std::string>& fac
             normalized(cross(to_double(light.vertices[1]) - p0, to_double(light.vertices[2]) - p0))));
         facts["polygon radiance " + index] = text(light.radiance);
         facts["sides " + index] = light.two_sided ? "2" : "1";
+    }
+    for (std::size_t i = 0; i < scene.lights.of<RoundLight>().size(); ++i) {
+        const RoundLight& light = scene.lights.of<RoundLight>()[i];
+        const std::string index = std::to_string(i);
+        facts["round " + index] = text(light.center) + text(light.u) + text(light.v) + text(light.w);
+        facts["round radiance " + index] = text(light.radiance);
+        facts["round model " + index] = text(static_cast<int>(light.model));
+        facts["round normal " + index] =
+            text(to_float(normalized(cross(to_double(light.u), to_double(light.v)))));
     }
     for (std::size_t i = 0; i < scene.lights.of<LineLight>().size(); ++i) {
         const LineLight& light = scene.lights.of<LineLight>()[i];
@@ -141,6 +150,7 @@ std::map<std::string, std::string> facts(const Scene& scene) {
     std::map<std::string, std::string> result = {
         {"emitters", text(scene.emitters.size())},
         {"polygon lights", text(scene.lights.of<PolygonLight>().size())},
+        {"round lights", text(scene.lights.of<RoundLight>().size())},
         {"line lights", text(scene.lights.of<LineLight>().size())},
         {"point lights", text(scene.lights.of<PointLight>().size())},
         {"distant lights", text(scene.lights.of<DistantLight>().size())},
