@@ -10,6 +10,7 @@
 #include "lab/lines/line_growth.h"
 #include "lab/lines/line_visibility.h"
 #include "lab/peers/peer_comparison.h"
+#include "lab/round/round_comparison.h"
 #include "lab/statements/statement_set.h"
 #include "lab/timing/cost_experiments.h"
 #include "lab/tubes/light_costs.h"
@@ -57,6 +58,7 @@ const std::vector<Experiment>& all_experiments() {
         add(all_light_grids(), run_light_grid, all);
         add(all_light_costs(), run_light_costs, all);
         add(all_peer_comparisons(), run_peer_comparison, all);
+        add(all_round_comparisons(), run_round_comparison, all);
         return all;
     }();
     return experiments;
