@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Makes a PDF of each paper in docs/papers: out/papers/*.pdf. Needs pandoc and chromium; no LaTeX.
+# Usage: scripts/make-papers.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+for program in pandoc chromium; do
+    command -v "$program" >/dev/null || { echo "make-papers.sh: needs $program; scripts/setup.sh site test installs it" >&2; exit 1; }
+done
+rm -rf out/papers
+mkdir -p out/papers
+cp docs/papers/*.svg docs/papers/paper.css out/papers/
+for paper in docs/papers/*.md; do
+    name=$(basename "$paper" .md)
+    pandoc "$paper" --from=gfm+tex_math_dollars+implicit_figures --to=html5 --mathml --standalone --css=paper.css --metadata pagetitle="$name" \
+        --output="out/papers/$name.html"
+    chromium --headless --no-sandbox --disable-gpu --no-pdf-header-footer --print-to-pdf="out/papers/$name.pdf" \
+        "file://$PWD/out/papers/$name.html" 2>"out/papers/$name.log"
+    [ -s "out/papers/$name.pdf" ] || { cat "out/papers/$name.log" >&2; exit 1; }
+    echo "out/papers/$name.pdf"
+done
