@@ -154,7 +154,8 @@ def draw_noise(path):
     for shape in ("spheres", "disks"):
         data = json.loads((ROOT / f"docs/data/round-{shape}.json").read_text(encoding="utf-8"))
         table = next(t for t in data["tables"] if t["name"] == "techniques")
-        rows += [(shape, row) for row in table["rows"]]
+        names = [column["name"] for column in table["columns"]]
+        rows += [(shape, dict(zip(names, row))) for row in table["rows"]]
     classes = list(dict.fromkeys((shape, row["lights"]) for shape, row in rows))
     low, high, left, right = 1e-8, 10.0, 330, 740
 

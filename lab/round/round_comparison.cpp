@@ -19,7 +19,7 @@ namespace nusselt::lab {
 
 namespace {
 
-enum class Where { above, cut, close };
+enum class Where { above, cut, close, small };
 
 Vec3<double> random_direction(hostile::RandomSource& random) {
     Vec3<double> v;
@@ -28,10 +28,10 @@ Vec3<double> random_direction(hostile::RandomSource& random) {
     return normalize(v);
 }
 
-/// A light of radius 0.2 to 1, 1.2 to 5 away, or as close as 0.02 to 0.3.
+/// A light of radius 0.2 to 1, 1.2 to 5 away, or as close as 0.02 to 0.3. Small ones have a thousandth of the radius.
 void make_light(hostile::RandomSource& random, bool is_disk, Where where, RoundLights& lights, int i) {
     for (;;) {
-        const double radius = random.between(0.2, 1);
+        const double radius = random.between(0.2, 1) * (where == Where::small ? 1e-3 : 1);
         const Vec3<double> normal = random_direction(random);
         Vec3<double> center = random.between(1.2, 5) * random_direction(random);
         const double rise = is_disk ? radius * std::sqrt(1 - normal.z * normal.z) : radius;
@@ -42,6 +42,7 @@ void make_light(hostile::RandomSource& random, bool is_disk, Where where, RoundL
             else
                 center = (radius + gap) * random_direction(random);
         }
+        if (where == Where::small) center = {center.x, center.y, rise * random.between(-0.9, 0.9)};
         const bool fits = where == Where::above ? center.z > rise * 1.001 : std::fabs(center.z) < 0.9 * rise;
         // A disk seen edge-on is nearly no light.
         if (!fits || (is_disk && std::fabs(dot(normal, center)) < 0.02 * length(center))) continue;
@@ -173,7 +174,8 @@ RoundResult run_round_comparison(const RoundComparison& comparison, const RunSet
     const std::pair<const char*, Where> kClasses[] = {
         {"above the horizon", Where::above},
         {"cut by the horizon", Where::cut},
-        {"close to the point, cut by the horizon", Where::close}};
+        {"close to the point, cut by the horizon", Where::close},
+        {"small, cut by the horizon", Where::small}};
     for (const auto& [name, where] : kClasses) {
         progress(fmt::format("lights {}", name));
         result.classes.push_back(

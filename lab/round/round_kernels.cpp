@@ -32,14 +32,27 @@ inline Disk<float> light_at(const RoundLights& lights, int i) {
     return {vector(lights.center[i]), vector(lights.normal[i]), lights.radius[i]};
 }
 
+/// Whether a ray meets a light that is larger by a thousandth.
+inline bool hits(const Sphere<float>& light, const Vec3<float>& wi) {
+    const Vec3<double> c = broadcast<double>(light.center), d = broadcast<double>(wi);
+    return dot(c, d) > 0 && length(cross(c, d)) <= 1.001 * static_cast<double>(light.radius) * length(d);
+}
+inline bool hits(const Disk<float>& light, const Vec3<float>& wi) {
+    const Vec3<double> c = broadcast<double>(light.center), d = broadcast<double>(wi);
+    const Vec3<double> n = broadcast<double>(light.normal);
+    const double distance = dot(c, n) / dot(d, n);
+    return distance > 0 && length(distance * d - c) <= 1.001 * static_cast<double>(light.radius);
+}
+
 template <class Technique, class Light>
 void weigh(const RoundLights& lights, float (&weight)[kRoundLights][kRoundSamples]) {
     for (int i = 0; i < kRoundLights; ++i) {
-        const Technique technique(light_at<Light>(lights, i));
+        const Light light = light_at<Light>(lights, i);
+        const Technique technique(light);
         for (int k = 0; k < kRoundSamples; ++k) {
             const auto s = technique.sample({lights.u[i][k][0], lights.u[i][k][1]});
             const float cosine = max(s.wi.z, 0.0f);
-            weight[i][k] = s.pdf > 0 ? cosine / s.pdf : 0.0f;
+            weight[i][k] = s.pdf > 0 && hits(light, s.wi) ? cosine / s.pdf : 0.0f;
         }
     }
 }

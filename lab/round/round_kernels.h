@@ -19,7 +19,7 @@ struct RoundTechnique {
     const char* name;
     bool is_ours;
     bool is_by_solid_angle; ///< the usual one, with which others are compared
-    /// The cosine over the density of each sample.
+    /// The cosine over the density of each sample, 0 for those that miss the light.
     void (*weigh)(const RoundLights&, float (&weight)[kRoundLights][kRoundSamples]);
     float (*prepare)(const RoundLights&);
     float (*prepare_and_sample)(const RoundLights&); ///< kRoundSamples samples of each light
