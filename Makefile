@@ -37,6 +37,10 @@ site: page ## the documentation, the gallery, the live page and the report as pa
 	scripts/build.sh apps/nusselt/all nusselt_lab_app
 	site/make.sh
 
+papers: ## our papers as PDF: out/papers (docs/papers)
+	scripts/setup.sh site test
+	scripts/make-papers.sh
+
 page: ## the live page in one file: out/page/index.html (docs/page.md)
 	scripts/setup.sh page
 	web/build.py out/page/index.html
