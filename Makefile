@@ -39,7 +39,7 @@ site: page ## the documentation, the gallery, the live page and the report as pa
 
 papers: ## our papers as PDF: out/papers (docs/papers)
 	scripts/setup.sh site test
-	scripts/make-papers.sh
+	scripts/papers/make.sh
 
 page: ## the live page in one file: out/page/index.html (docs/page.md)
 	scripts/setup.sh page

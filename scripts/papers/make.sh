@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Makes a PDF of each paper in docs/papers: out/papers/*.pdf. Needs pandoc and chromium; no LaTeX.
-# Usage: scripts/make-papers.sh
+# Usage: scripts/papers/make.sh
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 for program in pandoc chromium; do
-    command -v "$program" >/dev/null || { echo "make-papers.sh: needs $program; scripts/setup.sh site test installs it" >&2; exit 1; }
+    command -v "$program" >/dev/null || { echo "papers/make.sh: needs $program; scripts/setup.sh site test installs it" >&2; exit 1; }
 done
 rm -rf out/papers
 mkdir -p out/papers

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the figures of docs/papers: docs/papers/*.svg.
 
-Usage: scripts/make-paper-figures.py [FOLDER]     FOLDER: default docs/papers
+Usage: scripts/papers/figures.py [FOLDER]     FOLDER: default docs/papers
 The maps are computed here by bisection and sums, independently of the library; the chart shows docs/data/round-*.json.
 """
 import json
@@ -10,7 +10,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # nothing new in the folder of the sources
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 LINES = 12  # of the grid in the unit square
 BLUE, ORANGE, GREY, INK = "#1f5fa8", "#c8641e", "#999999", "#222222"
 
