@@ -22,7 +22,8 @@ const int kLineKind = 1;
 const int kPointKind = 2;
 const int kDistantKind = 3;
 const int kEnvironmentKind = 4;
-const int kLightKinds = 5;
+const int kRoundKind = 5;
+const int kLightKinds = 6;
 
 // Specialisation constants: whether a scene has lights of a shape. Those that it has not need no code.
 const int kPolygonsConstant = kFirstLightConstant;
@@ -42,7 +43,9 @@ const int kUniformPortalsConstant = kFirstLightConstant + 13; ///< environments 
 const int kMappedPortalsConstant = kFirstLightConstant + 14;
 const int kProfiledLinesConstant = kFirstLightConstant + 15; ///< and strips, whose radiance depends on the direction
 const int kProfiledTubesConstant = kFirstLightConstant + 16;
-const int kConstantCount = kFirstLightConstant + 17;
+const int kEllipsesConstant = kFirstLightConstant + 17;   ///< and disks
+const int kEllipsoidsConstant = kFirstLightConstant + 18; ///< and spheres
+const int kConstantCount = kFirstLightConstant + 19;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
@@ -54,7 +57,8 @@ const int kDistantLightsBinding = kFirstLightBinding + 4;
 const int kPolygonTexturesBinding = kFirstLightBinding + 5;
 const int kEmissionWordsBinding = kFirstLightBinding + 6; ///< texels and prepared data of all emission that varies
 const int kEnvironmentLightsBinding = kFirstLightBinding + 7;
-const int kFirstBindingAfterLights = kFirstLightBinding + 8;
+const int kRoundLightsBinding = kFirstLightBinding + 8;
+const int kFirstBindingAfterLights = kFirstLightBinding + 9;
 
 struct PolygonLightRecord {
     float normal[3];
@@ -136,6 +140,30 @@ struct EnvironmentLightRecord {
     uint first_map_word; ///< emission word that its EnvironmentMapWords begin with, after its texels; kNoWords for none
     float normal[3];     ///< of the portal
     uint first_corner_word; ///< of the portal, kNoWords without one
+};
+
+// Values of RoundLightRecord::shape, those of scene::RoundShape.
+const uint kSphere = 0;
+const uint kDisk = 1;
+const uint kEllipse = 2;
+const uint kEllipsoid = 3;
+
+/// A scene::RoundForm.
+struct RoundLightRecord {
+    uint shape;
+    float center[3];
+    float axis0[3];
+    float axis1[3];
+    float axis2[3];
+    float inverse0[3];
+    float inverse1[3];
+    float inverse2[3];
+    float normal[3];
+    float radius;
+    float radiance[3];
+    uint emits_outwards;
+    uint emits_inwards;
+    float shell;
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

@@ -8,6 +8,7 @@
 #include "passes/lights/line.glsl"
 #include "passes/lights/point.glsl"
 #include "passes/lights/polygon.glsl"
+#include "passes/lights/round.glsl"
 
 /// A row has the number of the kind in interface/lights.h and two functions:
 ///
@@ -18,7 +19,8 @@
     ROW(kLineKind, line_emission, add_lines) \
     ROW(kPointKind, no_emission, add_points) \
     ROW(kDistantKind, no_emission, add_distants) \
-    ROW(kEnvironmentKind, no_emission, add_environments)
+    ROW(kEnvironmentKind, no_emission, add_environments) \
+    ROW(kRoundKind, round_emission, add_rounds)
 
 /// Without a row for each kind, the array has no elements, which does not compile.
 struct AllKinds {

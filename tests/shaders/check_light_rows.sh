@@ -7,7 +7,7 @@ glslang=$1 work=$2
 
 compile() {
     "$glslang" --quiet --target-env vulkan1.1 -I"$work" -DTEXTURE_IMAGES=0 -DLIGHT_VERTICES=4 \
-        -DEMISSION_CELLS=0 -DLINE_CELLS=0 -DNUSSELT_UNROLL= -DNUSSELT_MAX_VERTICES=5 -o "$work/pass.spv" "$work/passes/integrate_lights.comp" \
+        -DEMISSION_CELLS=0 -DLINE_CELLS=0 -DROUND_LIGHTS=1 -DNUSSELT_UNROLL= -DNUSSELT_MAX_VERTICES=5 -o "$work/pass.spv" "$work/passes/integrate_lights.comp" \
         >"$work/log" 2>&1
 }
 

@@ -26,7 +26,8 @@ constexpr Kind kKinds[] = {{is_list_of<scene::PolygonLight>, write_polygons},
                            {is_list_of<scene::LineLight>, write_lines},
                            {is_list_of<scene::PointLight>, write_points},
                            {is_list_of<scene::DistantLight>, write_distants},
-                           {is_list_of<scene::EnvironmentLight>, write_environments}};
+                           {is_list_of<scene::EnvironmentLight>, write_environments},
+                           {is_list_of<scene::RoundLight>, write_rounds}};
 static_assert(std::size(kKinds) == interface::kLightKinds);
 
 /// The end of the table if shaders do not know the kind.
@@ -35,13 +36,14 @@ const Kind* find_kind(const scene::LightList& list) {
                         [&](const Kind& kind) { return kind.has(list); });
 }
 
-/// Shaders with cells have room for 8 vertices only: those for environments without a portal and for radiance that varies
-/// over polygons or along lines.
+/// Shaders with cells and those with round lights have room for 8 vertices only. Cells are for environments without a portal and
+/// for radiance that varies over polygons or along lines.
 int polygon_slots_for(const scene::Scene& scene) {
     const auto& lines = scene.lights.of<scene::LineLight>();
     const auto& polygons = scene.lights.of<scene::PolygonLight>();
     const auto& environments = scene.lights.of<scene::EnvironmentLight>();
     const bool are_small =
+        scene.lights.of<scene::RoundLight>().empty() &&
         std::all_of(environments.begin(), environments.end(),
                     [](const auto& light) { return light.portal.size() > 0 && light.portal.size() <= 4; }) &&
         std::all_of(polygons.begin(), polygons.end(),

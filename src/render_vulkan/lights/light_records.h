@@ -52,6 +52,7 @@ int constant_of(const scene::PolygonLight& light);
 int constant_of(const scene::LineLight& light);
 int constant_of(const scene::EnvironmentLight& light);
 int constant_of(const scene::PointLight& light);
+int constant_of(const scene::RoundLight& light);
 
 /// The reason for which shaders cannot have all of the lights; nothing if they can.
 std::optional<std::string> why_unsupported(const scene::Lights& lights);
@@ -65,5 +66,6 @@ void write_lines(const scene::Scene& scene, const scene::LightList& list, LightR
 void write_points(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 void write_distants(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 void write_environments(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
+void write_rounds(const scene::Scene& scene, const scene::LightList& list, LightRecords& records);
 
 } // namespace nusselt::render_vulkan
