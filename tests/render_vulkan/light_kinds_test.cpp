@@ -165,6 +165,13 @@ TEST(LightRecords, HaveWhatShadersReadOfEachKind) {
               std::vector<int>{interface::kUniformPortalsConstant});
     EXPECT_EQ(shapes_with_environment(0, polygon.vertices),
               std::vector<int>{interface::kMappedPortalsConstant});
+    const auto shapes_with_round = [&](scene::RoundModel model) {
+        scene::Scene other = render_test::make_floor(4);
+        other.lights.of<scene::RoundLight>() = {{.model = model}};
+        return shapes_of(other);
+    };
+    EXPECT_EQ(shapes_with_round(scene::RoundModel::ellipse), std::vector<int>{interface::kEllipsesConstant});
+    EXPECT_EQ(shapes_with_round(scene::RoundModel::hollow), std::vector<int>{interface::kEllipsoidsConstant});
     scene.lights.of<scene::PointLight>() = {point, point};
     scene.lights.of<scene::DistantLight>().resize(3);
 

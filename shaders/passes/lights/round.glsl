@@ -7,6 +7,7 @@
 #error ROUND_LIGHTS must be 1 for scenes with spheres, disks, ellipses or ellipsoids that emit, else 0: those shaders are larger
 #endif
 
+#include "nusselt/cones/circular_cones.glsl"
 #include "nusselt/cones/round_lights.glsl"
 #include "passes/lights/light_role.glsl"
 
@@ -19,8 +20,11 @@ layout(set = 0, binding = kRoundLightsBinding, std430) readonly buffer RoundLigh
 /// All shapes share the techniques, which know cones only: drivers would compile them once for each.
 struct RoundShape {
     bool is_flat;
+    bool is_circular; ///< sphere or disk
     vec3 center;
     vec3 axis0, axis1, axis2; ///< the last one of flat lights is 0
+    vec3 normal;  ///< of flat lights
+    float radius; ///< of spheres and disks
 };
 
 struct LocalRound {
@@ -41,12 +45,32 @@ RoundLightView view_without_cone(const RoundShape shape) {
     if (kHasEllipses && (!kHasEllipsoids || shape.is_flat)) return view_without_cone(ellipse_of(shape));
     return view_without_cone(ellipsoid_of(shape));
 }
+/// The cone of a sphere that does not surround the point.
+EllipticCone cone_of_sphere(const RoundLightView view, float radius) {
+    float inverse = over_positive(1.0, radius);
+    Frame frame = Frame(inverse * view.u, inverse * view.v, inverse * view.w);
+    EllipticCone cone = cone_of_circle(frame, nusselt_min(view.closeness, 1.0), view.rim);
+    cone.is_visible = cone.is_visible && radius > 0.0;
+    return cone;
+}
 RoundLightView view_of(const RoundShape shape) {
     RoundLightView view = view_without_cone(shape);
-    set_cone(view);
+    float radius = shape.radius / view.inverse_scale;
+    if (shape.is_circular && shape.is_flat)
+        view.cone = cone_of_disk(view.center, shape.normal, radius);
+    else if (shape.is_circular && !view.is_inside)
+        view.cone = cone_of_sphere(view, radius);
+    else
+        set_cone(view);
     return view;
 }
-RoundLightView view_of(const RoundShape shape, const Ltc lobe) {
+/// In the cosine space of a lobe.
+RoundLightView view_of(RoundShape shape, const Ltc lobe) {
+    if (shape.is_circular && shape.is_flat) {
+        Ellipse disk = disk_light(shape.center, shape.normal, shape.radius);
+        shape.axis0 = disk.u;
+        shape.axis1 = disk.v;
+    }
     RoundLightView view = view_without_cone(shape);
     set_cone(view, lobe);
     return view;
@@ -54,24 +78,34 @@ RoundLightView view_of(const RoundShape shape, const Ltc lobe) {
 
 bool is_flat(const RoundLightRecord record) { return record.shape == kDisk || record.shape == kEllipse; }
 
-/// A light in shading space. The axes of spheres are those of this space, and those of disks depend on their normal, as in the
-/// techniques for these shapes.
+/// A light in shading space. The axes of spheres and disks are those of the techniques of C++ for these shapes.
 RoundShape local_shape(const RoundLightRecord record, const Surface surface) {
-    bool flat_light = is_flat(record);
     Ellipsoid axes = to_shading_space(
         Ellipsoid(to_vec(record.center), to_vec(record.axis0), to_vec(record.axis1), to_vec(record.axis2)),
         surface.position, surface.shading);
+    RoundShape shape;
+    shape.is_flat = is_flat(record);
+    shape.is_circular = record.shape == kSphere || record.shape == kDisk;
+    shape.center = axes.center;
+    shape.normal = frame_to_local(surface.shading, to_vec(record.normal));
+    shape.radius = record.radius;
     if (record.shape == kSphere) axes = sphere_light(axes.center, record.radius);
-    RoundShape shape = RoundShape(flat_light, axes.center, axes.axis0, axes.axis1, axes.axis2);
-    if (record.shape == kDisk) {
-        Ellipse disk = disk_light(axes.center, frame_to_local(surface.shading, to_vec(record.normal)), record.radius);
-        shape.axis0 = disk.u;
-        shape.axis1 = disk.v;
+    shape.axis0 = axes.axis0;
+    shape.axis1 = axes.axis1;
+    shape.axis2 = axes.axis2;
+    if (kHasEllipses && record.shape == kDisk) {
+        DiskDirections disk = disk_directions(shape.center, shape.normal);
+        shape.axis0 = record.radius * disk.along;
+        shape.axis1 = record.radius * disk.across;
     }
     return shape;
 }
 
 float highest_point(const RoundShape shape) {
+    if (shape.is_circular) {
+        float across = shape.is_flat ? sqrt(dot(shape.normal.xy, shape.normal.xy)) : 1.0;
+        return shape.center.z + shape.radius * across;
+    }
     vec3 heights = vec3(shape.axis0.z, shape.axis1.z, shape.axis2.z);
     return shape.center.z + sqrt(dot(heights, heights));
 }
@@ -82,10 +116,10 @@ vec3 in_unit_sphere(const RoundLightRecord record, vec3 v) {
 }
 
 /// Whether a point is on a side of a flat light that emits. The light does not light itself.
-bool faces_flat_light(const RoundLightRecord record, const Surface surface, bool on_light, vec3 center) {
+bool faces_flat_light(const RoundLightRecord record, bool on_light, const RoundShape shape) {
     if (record.emits_inwards != 0u) return !on_light;
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
-    return !on_light && !(dot(frame_to_local(surface.shading, to_vec(record.normal)), center) >= 0.0);
+    return !on_light && !(dot(shape.normal, shape.center) >= 0.0);
 }
 
 /// The same for a solid light. Finds whether it surrounds the point.
@@ -101,6 +135,7 @@ bool faces_solid_light(const RoundLightRecord record, const Surface surface, boo
     light.shape.axis0 *= scale;
     light.shape.axis1 *= scale;
     light.shape.axis2 *= scale;
+    light.shape.radius *= scale;
     return light.inside || (outside && record.emits_outwards != 0u);
 }
 
@@ -115,7 +150,7 @@ LocalRound local_round(const Surface surface, uint index) {
     light.shading = surface.shading;
     uint number = light_number(kRoundKind, index);
     bool on_light = surface.light == int(number);
-    bool is_lit = light.shape.is_flat ? faces_flat_light(record, surface, on_light, light.shape.center)
+    bool is_lit = light.shape.is_flat ? faces_flat_light(record, on_light, light.shape)
                                       : faces_solid_light(record, surface, on_light, light);
     is_lit = is_lit && !(highest_point(light.shape) <= 0.0);
     light.role = LightRole(is_lit, to_vec(record.radiance), number);
