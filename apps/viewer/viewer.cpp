@@ -76,9 +76,9 @@ void Viewer::add_light(LightShape shape) {
     const double distance = std::max(dot(way, camera.forward()), kNearestNewLight * scene.radius);
     NewLight light;
     light.shape = shape;
-    light.name = shape == LightShape::panel ? "new panel" : "new tube";
+    light.name = "new " + std::string(name_of(shape));
     light.center = camera.position() + distance * camera.forward();
-    light.direction = shape == LightShape::panel ? -1.0 * camera.up() : normalized(camera.right());
+    light.direction = shape == LightShape::tube ? normalized(camera.right()) : -1.0 * camera.up();
     light.size = kSizeOfNewLight * scene.radius;
     const bool has_radiance = !scene.emitters.empty() && state.edits.quantity(scene, 0) == scene::kRadiance;
     const double brightness = has_radiance ? luminance(to_double(state.edits.emission_before(scene, 0))) : 1;

@@ -86,6 +86,14 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
     red.colour = scene::Float3{7, 0, 0};
     red.brightness = 0.5;
     edits.set(tube, red);
+    for (const LightShape shape : {LightShape::sphere, LightShape::disk}) {
+        const std::size_t light =
+            edits.add(scene_, {std::string(name_of(shape)), shape, {0, 1, 0}, {0, -1, 0}, 0.5, {3, 2, 1}});
+        turned.added = edits.get(light).added;
+        turned.move = {0.1, 0, 0.2};
+        turned.size = 1.5;
+        edits.set(light, turned);
+    }
     const base::TemporaryFolder folder;
     const std::filesystem::path path = folder / "rig.json";
     std::ofstream(path) << edits.rig_text(scene_);
@@ -100,6 +108,17 @@ TEST_F(LightEditsTest, TheRigDoesTheSame) {
                   edited.lights.of<scene::LineLight>()[i].radiance);
         EXPECT_EQ(by_rig.lights.of<scene::LineLight>()[i].start,
                   edited.lights.of<scene::LineLight>()[i].start);
+    }
+    const auto& rounds = edited.lights.of<scene::RoundLight>();
+    const auto& rounds_by_rig = by_rig.lights.of<scene::RoundLight>();
+    ASSERT_EQ(rounds.size(), 2u);
+    ASSERT_EQ(rounds_by_rig.size(), 2u);
+    EXPECT_NEAR(semi_axes(rounds[0])[2], 0.375, 1e-6) << "the sphere";
+    EXPECT_NEAR(rounds[0].center.x, 0.1, 1e-6);
+    EXPECT_EQ(rounds[1].model, scene::RoundModel::ellipse);
+    for (std::size_t i = 0; i < rounds.size(); ++i) {
+        EXPECT_EQ(rounds[i].radiance, rounds_by_rig[i].radiance);
+        EXPECT_TRUE(scene::LightKind<scene::RoundLight>::same_shape(rounds[i], rounds_by_rig[i])) << i;
     }
     for (std::size_t i = 0; i < edited.lights.of<scene::PolygonLight>().size(); ++i) {
         EXPECT_EQ(by_rig.lights.of<scene::PolygonLight>()[i].radiance,

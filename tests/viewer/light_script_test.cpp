@@ -6,6 +6,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace nusselt::viewer {
 namespace {
 
@@ -53,6 +56,24 @@ TEST_F(LightScriptTest, ChangesLightsInAllWays) {
     run("light-remove\nlight 0\nlight-remove\n", viewer);
     EXPECT_TRUE(viewer.state.edits.lights(viewer.session.loaded()).empty());
     for (const float value : viewer.session.image(Side::left).pixels) EXPECT_EQ(value, 0);
+}
+
+TEST_F(LightScriptTest, MovesTurnsAndScalesSpheresAndDisks) {
+    Viewer viewer = make_viewer();
+    std::vector<float> before;
+    for (const char* const commands :
+         {"light 0\nlight-switch off\nlight-add sphere\n", "light-move 0.2 0.1 0\n",
+          "light-size 0.5\nframes 1\n", "light-add disk\nlight 1\nlight-switch off\n",
+          "light 2\nlight-turn 0 0 1 60\n"}) {
+        SCOPED_TRACE(commands);
+        run(commands, viewer);
+        EXPECT_EQ(viewer.message, "");
+        const std::vector<float> pixels = viewer.session.image(Side::left).pixels;
+        EXPECT_GT(*std::max_element(pixels.begin(), pixels.end()), 0.01f);
+        EXPECT_NE(pixels, before);
+        before = pixels;
+    }
+    EXPECT_EQ(viewer.state.edits.get(1).size, 0.5);
 }
 
 /// Without a frame: drivers take long to compile shaders for images and maps.

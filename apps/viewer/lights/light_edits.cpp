@@ -29,7 +29,19 @@ std::pair<Double3, Double3> plane_axes(const Double3& normal) {
     return {right, cross(normal, right)};
 }
 
+scene::RoundLight sphere_of(const NewLight& light) {
+    const auto radius = static_cast<float>(0.5 * light.size);
+    scene::RoundLight sphere;
+    sphere.center = to_float(light.center);
+    sphere.u = {radius, 0, 0};
+    sphere.v = {0, radius, 0};
+    sphere.w = {0, 0, radius};
+    sphere.radiance = light.radiance;
+    return sphere;
+}
+
 scene::Lights shape_of(const NewLight& light) {
+    if (light.shape == LightShape::sphere) return only(sphere_of(light));
     if (light.shape == LightShape::tube) {
         scene::LineLight tube;
         const Double3 half = (0.5 * light.size) * light.direction;
@@ -42,6 +54,16 @@ scene::Lights shape_of(const NewLight& light) {
     const auto [right, up] = plane_axes(light.direction);
     const Double3 x = (0.5 * light.size) * right;
     const Double3 y = (0.5 * light.size) * up;
+    if (light.shape == LightShape::disk) {
+        scene::RoundLight disk;
+        disk.model = scene::RoundModel::ellipse;
+        disk.center = to_float(light.center);
+        disk.u = to_float(x);
+        disk.v = to_float(y);
+        disk.w = {0, 0, 0};
+        disk.radiance = light.radiance;
+        return only(disk);
+    }
     scene::PolygonLight panel;
     panel.vertices = {to_float(light.center - x - y), to_float(light.center + x - y),
                       to_float(light.center + x + y), to_float(light.center - x + y)};
@@ -159,7 +181,10 @@ scene::Lights placed(scene::Lights parts, const LightEdit& edit) {
     return parts;
 }
 
-std::string_view name_of(LightShape shape) { return shape == LightShape::panel ? "panel" : "tube"; }
+std::string_view name_of(LightShape shape) {
+    constexpr std::array<std::string_view, kLightShapes.size()> kNames = {"panel", "tube", "sphere", "disk"};
+    return kNames.at(static_cast<std::size_t>(shape));
+}
 
 LightEdit LightEdits::get(std::size_t light) const {
     const auto found = edits_.find(light);

@@ -15,9 +15,10 @@
 
 namespace nusselt::viewer {
 
-enum class LightShape { panel, tube };
+enum class LightShape { panel, tube, sphere, disk };
 
-inline constexpr std::array kLightShapes = {LightShape::panel, LightShape::tube};
+inline constexpr std::array kLightShapes = {LightShape::panel, LightShape::tube, LightShape::sphere,
+                                            LightShape::disk};
 std::string_view name_of(LightShape shape);
 
 /// A light that the user adds.
@@ -25,8 +26,8 @@ struct NewLight {
     std::string name;
     LightShape shape = LightShape::panel;
     scene::Double3 center;
-    scene::Double3 direction; ///< unit: the normal of a panel, the axis of a tube
-    double size = 1;          ///< the side of a panel, the length of a tube [m]
+    scene::Double3 direction; ///< unit: the normal of a panel or a disk, the axis of a tube; any for a sphere
+    double size = 1; ///< the side of a panel, the length of a tube, the diameter of a sphere or a disk [m]
     scene::Float3 radiance = {1, 1, 1};
 
     bool operator==(const NewLight&) const = default;

@@ -230,6 +230,11 @@ void Panels::draw_lights(Viewer& viewer) {
     ImGui::SameLine();
     if (button("add tube", "Add a tube in the middle of the image.")) viewer.add_light(LightShape::tube);
     ImGui::SameLine();
+    if (button("add sphere", "Add a sphere in the middle of the image."))
+        viewer.add_light(LightShape::sphere);
+    ImGui::SameLine();
+    if (button("add disk", "Add a disk in the middle of the image, which lights what is below."))
+        viewer.add_light(LightShape::disk);
     if (button("undo", "Take back the last change of a light (Ctrl+Z).")) viewer.undo();
     ImGui::SameLine();
     if (button("redo", "Repeat what was taken back (Ctrl+Shift+Z).")) viewer.redo();

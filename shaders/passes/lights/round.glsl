@@ -7,6 +7,7 @@
 #error ROUND_LIGHTS must be 1 for scenes with spheres, disks, ellipses or ellipsoids that emit, else 0: those shaders are larger
 #endif
 
+#if ROUND_LIGHTS
 #include "nusselt/cones/circular_cones.glsl"
 #include "nusselt/cones/round_lights.glsl"
 #include "passes/lights/light_role.glsl"
@@ -166,10 +167,13 @@ bool sees_inner_side(const RoundLightRecord record, const Ray ray) {
 
 /// The radiance along a ray that meets the light.
 vec3 round_emission(uint index, const Ray ray) {
-    if (!kHasRounds) return vec3(0.0);
+    if (!kHasRounds) return vec3(0.0); // drivers then drop the rest
     RoundLightRecord record = round_lights[index];
     uint emits = sees_inner_side(record, ray) ? record.emits_inwards : record.emits_outwards;
     return emits != 0u ? to_vec(record.radiance) : vec3(0.0);
 }
+#else
+vec3 round_emission(uint index, const Ray ray) { return vec3(0.0); }
+#endif
 
 #endif
