@@ -62,9 +62,8 @@ TEST_F(LightScriptTest, MovesTurnsAndScalesSpheresAndDisks) {
     Viewer viewer = make_viewer();
     std::vector<float> before;
     for (const char* const commands :
-         {"light 0\nlight-switch off\nlight-add sphere\n", "light-move 0.2 0.1 0\n",
-          "light-size 0.5\nframes 1\n", "light-add disk\nlight 1\nlight-switch off\n",
-          "light 2\nlight-turn 0 0 1 60\n"}) {
+         {"light 0\nlight-switch off\nlight-add sphere\n", "light-move 0.2 0.1 0\n", "light-size 0.5\n",
+          "light-add disk\nlight 1\nlight-switch off\n", "light 2\nlight-turn 0 0 1 60\n"}) {
         SCOPED_TRACE(commands);
         run(commands, viewer);
         EXPECT_EQ(viewer.message, "");
