@@ -37,11 +37,17 @@ bool has_emission_cells(const std::vector<std::uint32_t>& constants) {
                                          static_cast<std::uint32_t>(render::EmissionSampling::product);
 }
 
+bool has_round_lights(const std::vector<std::uint32_t>& constants) {
+    return constants[interface::kEllipsesConstant] != 0 || constants[interface::kEllipsoidsConstant] != 0;
+}
+
 gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<std::uint32_t>& constants) {
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    const ShaderVariant variant{scene.polygon_slots(), textures.access(), has_emission_cells(constants)};
+    const bool has_rounds = has_round_lights(constants);
+    const ShaderVariant variant{scene.polygon_slots(), textures.access(),
+                                has_rounds || has_emission_cells(constants), has_rounds};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants

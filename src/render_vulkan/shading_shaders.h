@@ -26,6 +26,8 @@ struct ShaderVariant {
     TextureAccess textures;
     /// For environments without a portal and where images of polygons decide where samples are: with 8 slots only.
     bool emission_cells;
+    /// Whether there is code for spheres, disks, ellipses and ellipsoids: with 8 slots and cells only.
+    bool round_lights;
     bool operator==(const ShaderVariant&) const = default;
 };
 

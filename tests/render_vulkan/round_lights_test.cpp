@@ -2,14 +2,12 @@
 
 #include "comparison.h"
 #include "gpu_test.h"
+#include "lights/round_scenes.h"
 #include "rich_scene.h"
 #include "scenes.h"
 
-#include "scene/model/lights/light_geometry.h"
 #include "scene/model/lights/round_form.h"
 
-#include <algorithm>
-#include <string>
 #include <vector>
 
 namespace nusselt::render_vulkan_test {
@@ -18,34 +16,14 @@ namespace {
 using lab::kLargestDifferingShare;
 using render::Strategies;
 using render::Technique;
-using render_vulkan::ShadowRays;
+using render_test::add_round_light;
 using render_vulkan::VulkanRenderer;
-using scene::Float3;
 using scene::RoundLight;
 using scene::RoundModel;
 using scene::RoundShape;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-
-/// Adds a light and its surface, as the builder of scenes does. There must be no other kind of light.
-void add_round_light(scene::Scene& scene, RoundLight light) {
-    std::vector<RoundLight>& lights = scene.lights.of<RoundLight>();
-    light.emitter = static_cast<std::uint32_t>(scene.emitters.size());
-    scene.emitters.push_back({"round"});
-    const scene::LightSurface made = surface(light, 24);
-    const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    scene.positions.insert(scene.positions.end(), made.positions.begin(), made.positions.end());
-    scene.normals.insert(scene.normals.end(), made.normals.begin(), made.normals.end());
-    scene.uvs.insert(scene.uvs.end(), made.uvs.begin(), made.uvs.end());
-    for (const scene::Triangle& triangle : made.triangles) {
-        const auto& [a, b, c] = triangle.vertex;
-        scene.triangles.push_back({{first + a, first + b, first + c}});
-        scene.triangle_material.push_back(0);
-        scene.triangle_light.push_back(static_cast<int>(lights.size()));
-    }
-    lights.push_back(light);
-}
 
 /// The surfaces of make_plain_scene() without lights.
 scene::Scene make_dark_scene() {

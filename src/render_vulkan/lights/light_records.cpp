@@ -36,7 +36,7 @@ const Kind* find_kind(const scene::LightList& list) {
                         [&](const Kind& kind) { return kind.has(list); });
 }
 
-/// Shaders with cells and those with round lights have room for 8 vertices only. Cells are for environments without a portal and
+/// Shaders with cells and those for round lights have room for 8 vertices only. Cells are for environments without a portal and
 /// for radiance that varies over polygons or along lines.
 int polygon_slots_for(const scene::Scene& scene) {
     const auto& lines = scene.lights.of<scene::LineLight>();
