@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CIRCULAR_CONES_GLSL
 #define NUSSELT_CONES_CIRCULAR_CONES_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 61c8920d5d8f
+// Follows include/nusselt/cones/elliptic_cone.h @ 097f1d914af2
 /// The cones of spheres and disks without iteration. Twin of the second half of include/nusselt/cones/elliptic_cone.h.
 
 #include "../cones/elliptic_cone.glsl"
@@ -23,7 +23,8 @@ struct DiskDirections {
 /// \param normal unit, either side.
 DiskDirections disk_directions(vec3 centre, vec3 normal) {
     vec3 side = nusselt_cross(normal, centre);
-    vec3 across = dot(side, side) > 0.0 ? nusselt_normalize(side) : frame_from_normal(normal).t;
+    // Next to the axis, the direction of denormal numbers would be one of rounding.
+    vec3 across = nusselt_length(side) > kNusseltTiny ? nusselt_normalize(side) : frame_from_normal(normal).t;
     return DiskDirections(nusselt_cross(across, normal), across);
 }
 

@@ -257,8 +257,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     if (changes.shape) replace_shape(entry, light, *changes.shape);
     move(entry, light, offset);
     if (!is_valid(light))
-        fail(entry.where,
-             "light " + in_quotes(light.name) + " would lie beyond 1e15 m or be too small or too flat to have an area");
+        fail(entry.where, "light " + in_quotes(light.name) +
+                              " would lie beyond 1e15 m or be too small or too flat to have an area");
     const auto check = [&](const std::optional<FieldDefect>& defect) {
         if (defect)
             fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
