@@ -77,7 +77,7 @@ struct RectifiedTable {
     T mean; ///< over the solid angle of the domain and over channels [W/(sr m^2)]; 0: all of it is black
     T mean_square; ///< of the radiance averaged over channels, over the squared mean: at least 1, or 0 if black
     const RectifiedSums* sums; ///< size(width, height) of them, at index(i, j)
-    /// Sums like those of radiance per channel times solid angle [W/m^2], with rounding errors. May be null afterwards, if all
+    /// Sums like those of radiance per channel times solid angle [W/m^2], with rounding errors. WindowedPolygon takes null if all
     /// channels are equal.
     const Vec3<T>* colour;
     RefinedTexels<T> refined = {nullptr, nullptr, 0}; ///< refine_rectified_table() finds some
@@ -100,13 +100,6 @@ struct RectifiedTable {
 };
 
 namespace detail {
-
-/// Announces that a number will be read.
-NUSSELT_HD inline void prefetch([[maybe_unused]] const void* address) noexcept {
-#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
-    __builtin_prefetch(address);
-#endif
-}
 
 /// Sums over millions of texels.
 template <class T>

@@ -225,23 +225,8 @@ private:
                        end <= texels.last ? min(slope_at(end), to) : to);
     }
 
-    /// Fetches the sums at the lines of the lattice while angles are computed: large tables are not in the cache.
-    NUSSELT_HD void prefetch_lines() const noexcept {
-        constexpr int kLarge = 1 << 18;
-        if (table_->width * table_->height < kLarge) return;
-        for (int i = 0; i <= n; ++i) {
-            for (int j = 0; j <= n; ++j) {
-                const RectifiedSums* const low =
-                    table_->sums + table_->index(columns_.texel[i], rows_.texel[j]);
-                detail::prefetch(low);
-                detail::prefetch(low + (table_->width + 1));
-            }
-        }
-    }
-
     /// Adds up the weights of cells along columns.
     NUSSELT_HD void find_weights() noexcept {
-        prefetch_lines();
         T angle[n * n];
         WindowLattice<T, n>(image_, columns_.offset, rows_.offset).find_angles(angle);
         clip_angles(angle);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_RECTIFIED_TABLE_GLSL
 #define NUSSELT_EMISSION_RECTIFIED_TABLE_GLSL
-// Follows include/nusselt/emission/rectified_table.h @ 52f1be6db51c
+// Follows include/nusselt/emission/rectified_table.h @ 51acd585a765
 /// Tables of radiance by direction, from the words that RectifiedTableWords of C++ writes once per table. Twin of
 /// include/nusselt/emission/rectified_table.h, without what makes tables.
 ///

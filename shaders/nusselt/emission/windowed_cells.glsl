@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_WINDOWED_CELLS_GLSL
 #define NUSSELT_EMISSION_WINDOWED_CELLS_GLSL
-// Follows include/nusselt/emission/windowed_polygon.h @ 77f1103375ee
+// Follows include/nusselt/emission/windowed_polygon.h @ ab15301bae73
 /// What WindowedPolygon and WindowedPolygonLtc share: the window of a light in its table, weights of cells, and samples
 /// of texels. Twin of include/nusselt/emission/windowed_polygon.h, with 8 x 8 cells.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_WINDOWED_POLYGON_GLSL
 #define NUSSELT_EMISSION_WINDOWED_POLYGON_GLSL
-// Follows include/nusselt/emission/windowed_polygon.h @ 77f1103375ee
+// Follows include/nusselt/emission/windowed_polygon.h @ ab15301bae73
 /// Sampling of polygons whose radiance depends on the direction, in proportion to radiance times the cosine at the
 /// surface. Twin of WindowedPolygon in include/nusselt/emission/windowed_polygon.h, with 8 x 8 cells.
 ///

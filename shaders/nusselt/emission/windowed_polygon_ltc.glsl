@@ -1,6 +1,6 @@
 #ifndef NUSSELT_EMISSION_WINDOWED_POLYGON_LTC_GLSL
 #define NUSSELT_EMISSION_WINDOWED_POLYGON_LTC_GLSL
-// Follows include/nusselt/emission/windowed_polygon.h @ 77f1103375ee
+// Follows include/nusselt/emission/windowed_polygon.h @ ab15301bae73
 /// Sampling of polygons whose radiance depends on the direction, in proportion to radiance times a glossy lobe. Twin of
 /// WindowedPolygonLtc in include/nusselt/emission/windowed_polygon.h, with 8 x 8 cells.
 ///
