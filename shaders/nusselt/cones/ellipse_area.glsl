@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPSE_AREA_GLSL
 #define NUSSELT_CONES_ELLIPSE_AREA_GLSL
-// Follows include/nusselt/cones/ellipse_area.h @ 1fe3791c5d25
+// Follows include/nusselt/cones/ellipse_area.h @ 547e9e33ec9a
 /// Sampling of ellipses (disks: disk_light()) uniformly by area: for references, and to compare with. Twin of
 /// include/nusselt/cones/ellipse_area.h.
 ///
