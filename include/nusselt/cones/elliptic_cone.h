@@ -171,9 +171,10 @@ NUSSELT_HD inline EllipticCone<Real> cone_of_columns(ConeColumns<Real> k, const 
     const Real largest = max(max(a, b), c);
     cone.is_visible = (largest > Real(0)) & is_finite(largest);
     const Real inverse = Real(1) / select(cone.is_visible, largest, Real(1));
-    cone.a = inverse * a;
-    cone.b = inverse * b;
-    cone.c = inverse * c;
+    // Denormal numbers have too few digits.
+    cone.a = without_tiny(inverse * a);
+    cone.b = without_tiny(inverse * b);
+    cone.c = without_tiny(inverse * c);
     return cone;
 }
 
@@ -284,9 +285,9 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     cone.is_visible = visible & is_finite(norm);
     const Real largest = max(max(cone.a, cone.b), max(cone.c, Real(std::numeric_limits<Scalar>::min())));
     const Real inverse = Real(1) / largest;
-    cone.a = inverse * cone.a;
-    cone.b = inverse * cone.b;
-    cone.c = inverse * cone.c;
+    cone.a = detail::without_tiny(inverse * cone.a);
+    cone.b = detail::without_tiny(inverse * cone.b);
+    cone.c = detail::without_tiny(inverse * cone.c);
     result.u = radius * m;
     result.v = radius * e2;
     return result;

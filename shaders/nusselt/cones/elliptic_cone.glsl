@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 097f1d914af2
+// Follows include/nusselt/cones/elliptic_cone.h @ b61b7f4d0b02
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -117,9 +117,10 @@ EllipticCone cone_of_columns(const ConeColumns k, vec3 front) {
     float largest = nusselt_max(nusselt_max(a, b), c);
     cone.is_visible = largest > 0.0 && is_finite(largest);
     float inverse = 1.0 / (cone.is_visible ? largest : 1.0);
-    cone.a = inverse * a;
-    cone.b = inverse * b;
-    cone.c = inverse * c;
+    // Denormal numbers have too few digits.
+    cone.a = without_tiny(inverse * a);
+    cone.b = without_tiny(inverse * b);
+    cone.c = without_tiny(inverse * c);
     return cone;
 }
 
