@@ -89,8 +89,12 @@ constexpr RoundTechnique row(const char* name, Origin origin) {
             prepare_and_sample<Technique, Light>};
 }
 
+/// The variant with small backward errors for lights that touch the point.
+template <template <class> class Light>
+using Ours = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, 64>;
+
 inline constexpr RoundTechnique kSpheres[] = {
-    row<ConeProjectedSolidAngle<float, Sphere>, Sphere<float>>("ours, projected solid angle", Origin::ours),
+    row<Ours<Sphere>, Sphere<float>>("ours, projected solid angle", Origin::ours),
     row<SphereProjectedSolidAnglePeters<float>, Sphere<float>>("Peters and Dachsbacher 2019",
                                                                Origin::published),
     row<SphereProjectedSolidAngleUrena<float>, Sphere<float>>("Ureña and Georgiev 2018", Origin::published),
@@ -98,7 +102,7 @@ inline constexpr RoundTechnique kSpheres[] = {
     row<SphereArea<float>, Sphere<float>>("area", Origin::published),
 };
 inline constexpr RoundTechnique kDisks[] = {
-    row<ConeProjectedSolidAngle<float, Disk>, Disk<float>>("ours, projected solid angle", Origin::ours),
+    row<Ours<Disk>, Disk<float>>("ours, projected solid angle", Origin::ours),
     row<ConeProjectedRejectionGamito<float, Disk>, Disk<float>>("Gamito 2016, projected rectangle",
                                                                 Origin::published),
     row<ConeSolidAngle<float, Disk>, Disk<float>>("ours, solid angle", Origin::usual),

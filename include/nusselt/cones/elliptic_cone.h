@@ -285,9 +285,9 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     cone.is_visible = visible & is_finite(norm);
     const Real largest = max(max(cone.a, cone.b), max(cone.c, Real(std::numeric_limits<Scalar>::min())));
     const Real inverse = Real(1) / largest;
-    cone.a = detail::without_tiny(inverse * cone.a);
-    cone.b = detail::without_tiny(inverse * cone.b);
-    cone.c = detail::without_tiny(inverse * cone.c);
+    cone.a = without_tiny(inverse * cone.a);
+    cone.b = without_tiny(inverse * cone.b);
+    cone.c = without_tiny(inverse * cone.c);
     result.u = radius * m;
     result.v = radius * e2;
     return result;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CIRCULAR_CONES_GLSL
 #define NUSSELT_CONES_CIRCULAR_CONES_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 097f1d914af2
+// Follows include/nusselt/cones/elliptic_cone.h @ dd70c8ba6e8d
 /// The cones of spheres and disks without iteration. Twin of the second half of include/nusselt/cones/elliptic_cone.h.
 
 #include "../cones/elliptic_cone.glsl"
@@ -77,9 +77,9 @@ EllipticCone cone_of_disk(vec3 centre, vec3 normal, float radius) {
     cone.row2 = vec3(-flip * gain * delta, 0.0, gain);
     cone.is_visible = visible && is_finite(norm);
     float inverse = 1.0 / nusselt_max(nusselt_max(cone.a, cone.b), nusselt_max(cone.c, kNusseltSmallestNormal));
-    cone.a *= inverse;
-    cone.b *= inverse;
-    cone.c *= inverse;
+    cone.a = without_tiny(inverse * cone.a);
+    cone.b = without_tiny(inverse * cone.b);
+    cone.c = without_tiny(inverse * cone.c);
     return cone;
 }
 
