@@ -44,9 +44,9 @@ gl.getExtension("WEBGL_lose_context").loseContext();
 return messages;
 """
 TEXTS = """
-return [...document.getElementById("left").options].map(option => option.value).flatMap(technique =>
-    [...document.getElementById("left-sampler").options].map(({ value: sampler }) =>
-        [`${technique} ${sampler}`, window.nusselt.shaderText({ technique, heuristic: "balance", sampler })]));
+const [sampler] = arguments;
+return [...document.getElementById("left").options].map(({ value: technique }) =>
+    [technique, window.nusselt.shaderText({ technique, heuristic: "balance", sampler })]);
 """
 SCREENS = {"phone": (390, 844), "tablet": (768, 1024), "desktop": (1280, 800)}
 CATCH_COPIES = "navigator.clipboard.writeText = async text => { window.copied = text }; window.copied = ''"
@@ -188,16 +188,16 @@ class Page(LivePageTest):
         """Alone, as they are copied, in the browser, whose rules are stricter than those of other compilers."""
         self.open()
         scenes = [row["name"] for row in json.loads((ROOT / "web/scenes.json").read_text())]
-        for name, thick in itertools.product(scenes, (False, True)):
+        for (name, sampler), thick in itertools.product(zip(scenes, ("sobol", "independent"), strict=True), (False, True)):
             self.choose("#scene", name)
             if self.find("#thick").is_selected() != thick:
                 self.browser.click(self.find("#thick"))
-            texts = dict(self.browser.script(TEXTS))
-            self.assertGreater(len(texts), 40)
+            texts = dict(self.browser.script(TEXTS, sampler))
+            self.assertGreater(len(texts), 20)
             messages = dict(zip(texts, self.browser.script(COMPILE, list(texts.values()))))
             wrong = {technique: message for technique, message in messages.items() if message}
             self.assertEqual({}, wrong, f"{name}, {thick}")
-        text = texts["area sobol"]
+        text = texts["area"]
         self.assertTrue(text.startswith("#version 300 es\n") and "Permission is hereby granted" in text)
         # What does not compile, and what is compiled but not linked.
         self.assertNotEqual([""], self.browser.script(COMPILE, [text + "mistake"]))
