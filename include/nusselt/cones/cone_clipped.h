@@ -15,7 +15,8 @@ NUSSELT_NAMESPACE_BEGIN
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]. 1 / pdf is unbiased for the part above the horizon, and for
-/// most lights within a few percent of the mean.
+/// most lights within a few percent of the mean. Where the axis of the cone is next to the horizon, few samples have large weights, and
+/// measure() is off by up to a tenth.
 /// Space: shading space. wi.z is not negative.
 /// Edge cases: those of ConeSolidAngle; nothing above the horizon: pdf = 0, measure 0.
 template <class Real, template <class> class Light>

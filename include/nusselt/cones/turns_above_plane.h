@@ -15,7 +15,7 @@ NUSSELT_NAMESPACE_BEGIN
 template <class Real>
 class TurnsAbovePlane {
     using Scalar = scalar_t<Real>;
-    static constexpr int kNodes = 10;
+    static constexpr int kNodes = 16;
     static constexpr int kParts = 3;
     using Part = PiecewiseLinear<Real, kNodes>;
 

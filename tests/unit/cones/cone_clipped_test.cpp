@@ -60,22 +60,22 @@ double estimate_error(const Technique& technique, const Function& f, double expe
     return std::fabs(sum / expected - 1);
 }
 
-/// The midpoint rule errs along outlines in the unit square; lobes end at a horizon of their own.
-constexpr double kBudget = 5e-3, kLobeBudget = 1.2e-2;
+/// Where the axis of a cone is next to the plane, few lines have most of the error of the interpolant: sums converge slowly.
+constexpr double kBudget = 2e-2;
 
 TEST(ConeClippedTest, SolidAngleIsThatOfThePartAboveTheHorizon) {
     const auto f = [](const auto& wi) { return 1 + wi.x / 2; };
     for_each_light(2, [&](const RoundLight& light) {
         const VisiblePart part(silhouette_of(light));
-        const auto expected = static_cast<double>(part.integral(f, 0, 1, 0, 1, 96));
+        const auto expected = static_cast<double>(part.integral(f, 0, 1, 0, 1, 256));
         if (expected < 1e-2) return;
         with_light<double>(light, [&](const auto& l) {
             const auto technique = by_solid_angle(l);
             EXPECT_LE(estimate_error(technique, f, expected, 1), kBudget);
-            EXPECT_GT(estimate_error(technique, f, expected, 1.02), kBudget);
+            EXPECT_GT(estimate_error(technique, f, expected, 1.06), kBudget);
             const auto one = [](const Point&) { return 1.0L; };
-            EXPECT_NEAR(technique.measure() / static_cast<double>(part.integral(one, 0, 1, 0, 1, 96)), 1,
-                        0.05);
+            EXPECT_NEAR(technique.measure() / static_cast<double>(part.integral(one, 0, 1, 0, 1, 256)), 1,
+                        0.12);
         });
     });
 }
@@ -93,9 +93,9 @@ TEST(ConeClippedTest, LobesAreThoseAboveBothHorizons) {
             if (expected < 1e-2) continue;
             with_light<double>(light, [&](const auto& l) {
                 const auto technique = by_lobe(l, ltc);
-                EXPECT_LE(estimate_error(technique, f, expected, 1), kLobeBudget) << light.center.z;
-                EXPECT_GT(estimate_error(technique, f, expected, 1.03), kLobeBudget);
-                EXPECT_NEAR(technique.measure() / expected, 1, 0.05);
+                EXPECT_LE(estimate_error(technique, f, expected, 1), kBudget) << light.center.z;
+                EXPECT_GT(estimate_error(technique, f, expected, 1.06), kBudget);
+                EXPECT_NEAR(technique.measure() / expected, 1, 0.1);
             });
         }
     });
