@@ -80,6 +80,12 @@ def script():
                           check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
+def style():
+    text = (ROOT / "lab/report/page/page.css").read_text() + (ROOT / "web/page/page.css").read_text()
+    return subprocess.run(["esbuild", "--loader=css", "--charset=utf8", "--minify-whitespace"],
+                          input=text, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
 def hash_of(text):
     """The name of a script or style in a policy of content security."""
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
@@ -88,11 +94,10 @@ def hash_of(text):
 def page():
     data = {"licence": licence("its live page"), "sources": sources(), "scenes": scenes(SCENES),
             "lobes": base64.b64encode((ROOT / "data/ltc-frostbite-engine.bin").read_bytes()).decode()}
-    style = "\n" + (ROOT / "lab/report/page/page.css").read_text() + (ROOT / "web/page/page.css").read_text()
-    code = "\n" + script()
+    css, code = "\n" + style(), "\n" + script()
     parts = {
-        "@STYLE@": style,
-        "@STYLE_HASH@": hash_of(style),
+        "@STYLE@": css,
+        "@STYLE_HASH@": hash_of(css),
         # Without `<`, nothing in the text can end its element.
         "@DATA@": json.dumps(data, separators=(",", ":")).replace("<", "\\u003c"),
         "@SCRIPT@": code,
