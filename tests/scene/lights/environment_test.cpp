@@ -165,21 +165,23 @@ TEST_F(Environments, DarkPortalsGiveAWarning) {
     EXPECT_EQ(with_portal("2", shape, "Rotate 180 1 0 0\n").warnings.size(), 1u);
 }
 
-/// The camera looks along z at a floor, with a portal beside it. A box around the floor leaves no way to the sky.
+/// The camera looks down at a floor with a portal beside it.
 TEST_F(Environments, HiddenPortalsGiveAWarning) {
     const std::string floor =
-        "Shape \"quad\" \"point o\" [-1 -1 1] \"vector u\" [2 0 0] \"vector v\" [0 0 2]\n";
+        "Shape \"quad\" \"point o\" [-1.4 -1 -9] \"vector u\" [3.8 0 0] \"vector v\" [0 0 22]\n";
     const auto wall_at = [](const std::string& x) {
-        return "Shape \"quad\" \"point o\" [" + x + " -9 -9] \"vector u\" [0 99 0] \"vector v\" [0 0 99]\n";
+        return "Shape \"quad\" \"point o\" [" + x +
+               " -99 -99] \"vector u\" [0 198 0] \"vector v\" [0 0 198]\n";
     };
     const std::string portal = "LightSource \"infinite\" \"point3 portal\" [2 0 0  2 0 2  2 2 2  2 2 0]\n";
     const auto scene = [&](const std::string& shapes) {
-        return load("Camera \"perspective\"\nWorldBegin\n" + portal + shapes);
+        return load("LookAt 0 3 2  0 -1 2  0 0 1\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n" +
+                    portal + shapes);
     };
     EXPECT_TRUE(scene(floor).warnings.empty());
     EXPECT_TRUE(scene(floor + wall_at("-1.5")).warnings.empty());
     const std::string expected =
-        "scene.pbrt:3: environment: nothing that the camera sees receives light through its "
+        "scene.pbrt:4: environment: nothing that the camera sees receives light through its "
         "portal; a wall may hide it";
     EXPECT_EQ(warning(scene(floor + wall_at("1.5"))), expected) << "between floor and portal";
     EXPECT_EQ(warning(scene(floor + wall_at("-1.5") + wall_at("2.5"))), expected) << "on both sides";
