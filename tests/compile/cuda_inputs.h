@@ -56,6 +56,37 @@ __device__ void use_cylinder(const Inputs& inputs, float* result) {
     result[i] = use<Technique>(local_cylinder(inputs, i), inputs.u[i]);
 }
 
+__device__ inline nusselt::Ellipsoid<float> local_ellipsoid(const Inputs& inputs, int i) {
+    const auto polygon = local_polygon(inputs, i);
+    const auto& v = polygon.vertex;
+    return {v[0], {v[1] - v[0], v[2] - v[0], v[3] - v[0]}};
+}
+
+template <class Technique>
+__device__ void use_sphere(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    const nusselt::Sphere<float> light{local_ellipsoid(inputs, i).center, inputs.u[i].y};
+    result[i] = use<Technique>(light, inputs.u[i]);
+}
+template <class Technique>
+__device__ void use_disk(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    const nusselt::Disk<float> light{local_ellipsoid(inputs, i).center, inputs.normals[0], inputs.u[i].y};
+    result[i] = use<Technique>(light, inputs.u[i]);
+}
+template <class Technique>
+__device__ void use_ellipse(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    const auto light = local_ellipsoid(inputs, i);
+    result[i] =
+        use<Technique>(nusselt::Ellipse<float>{light.center, light.axis[0], light.axis[1]}, inputs.u[i]);
+}
+template <class Technique>
+__device__ void use_ellipsoid(const Inputs& inputs, float* result) {
+    const int i = thread_index();
+    result[i] = use<Technique>(local_ellipsoid(inputs, i), inputs.u[i]);
+}
+
 /// A technique for LTCs on a light.
 template <class Technique>
 struct OnLobe : Technique {
@@ -74,6 +105,23 @@ __device__ void use_line_on_lobe(const Inputs& inputs, float* result) {
 template <class Technique>
 __device__ void use_cylinder_on_lobe(const Inputs& inputs, float* result) {
     use_cylinder<OnLobe<Technique>>(inputs, result);
+}
+
+template <class Technique>
+__device__ void use_sphere_on_lobe(const Inputs& inputs, float* result) {
+    use_sphere<OnLobe<Technique>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_disk_on_lobe(const Inputs& inputs, float* result) {
+    use_disk<OnLobe<Technique>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_ellipse_on_lobe(const Inputs& inputs, float* result) {
+    use_ellipse<OnLobe<Technique>>(inputs, result);
+}
+template <class Technique>
+__device__ void use_ellipsoid_on_lobe(const Inputs& inputs, float* result) {
+    use_ellipsoid<OnLobe<Technique>>(inputs, result);
 }
 
 /// A light that the kernel prepares, too: renderers do that once.
