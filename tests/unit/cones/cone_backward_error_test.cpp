@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/effort.h"
 #include "cones/round_cases.h"
-#include "effort.h"
 
 namespace nusselt_test {
 namespace {
