@@ -57,7 +57,7 @@ public:
             Real finer[Places];
             fill.template operator()<Fine>(finer);
             fine_ = Fine(finer);
-            is_fine_ = mask_t<Real>(!is_coarse_ & fine_.converges(Scalar(kPositive)));
+            is_fine_ = mask_t<Real>((!is_coarse_) & fine_.converges(Scalar(kPositive)));
             is_exact_ = is_exact_ | (is_fine_ & fine_.converges(kRounding));
         }
     }
@@ -93,8 +93,12 @@ public:
         if constexpr (kRefines) {
             if (!any(is_fine_)) return z;
             Real refined = z;
-            const int steps = all(is_close_) ? kSteps : 2 * kSteps;
-            for (int i = 0; i < steps; ++i) refined = fine_.refined(refined, goal);
+            for (int i = 0; i < kSteps; ++i) refined = fine_.refined(refined, goal);
+            if (!all(is_close_)) {
+                Real from_linear = refined;
+                for (int i = 0; i < kSteps; ++i) from_linear = fine_.refined(from_linear, goal);
+                refined = select(is_close_, refined, from_linear);
+            }
             z = select(is_fine_, refined, z);
         }
         return z;
