@@ -36,7 +36,7 @@ void add_light(inout Reflected reflected, const LightRole role, vec2 integrals) 
 #include "passes/lights/line_integrals.glsl"
 #include "passes/lights/one_direction_integrals.glsl"
 #include "passes/lights/polygon_integrals.glsl"
-#include "passes/lights/round_integrals.glsl"
+#include "passes/rounds/round_integrals.glsl"
 
 vec3 reflected_light(const Surface surface, ivec2 pixel, inout Counts counts) {
     if (kTechnique != kTechniqueLtcAnalytic) note_unknown_setting();

@@ -8,7 +8,7 @@
 #include "passes/lights/line.glsl"
 #include "passes/lights/point.glsl"
 #include "passes/lights/polygon.glsl"
-#include "passes/lights/round.glsl"
+#include "passes/rounds/round.glsl"
 
 /// A row has the number of the kind in interface/lights.h and two functions:
 ///

@@ -142,7 +142,7 @@ vec2 random_for_light(ivec2 pixel, uint index, uint light, int pair) {
 #include "passes/lights/line_samples.glsl"
 #include "passes/lights/one_direction_samples.glsl"
 #include "passes/lights/polygon_samples.glsl"
-#include "passes/lights/round_samples.glsl"
+#include "passes/rounds/round_samples.glsl"
 
 vec3 reflected_light(const Surface surface, ivec2 pixel, inout Counts counts) {
     Estimate reflected;

@@ -1,4 +1,4 @@
-// Spheres, disks, ellipses and ellipsoids, for shaders/passes/lights/round.glsl.
+// Spheres, disks, ellipses and ellipsoids, for shaders/passes/rounds/round.glsl.
 
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"

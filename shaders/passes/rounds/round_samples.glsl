@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_ROUND_SAMPLES_GLSL
-#define NUSSELT_PASSES_LIGHTS_ROUND_SAMPLES_GLSL
+#ifndef NUSSELT_PASSES_ROUNDS_ROUND_SAMPLES_GLSL
+#define NUSSELT_PASSES_ROUNDS_ROUND_SAMPLES_GLSL
 /// Techniques for spheres, disks, ellipses and ellipsoids, and the loop that samples them.
 
-#include "passes/lights/round.glsl"
+#include "passes/rounds/round.glsl"
 #include "passes/lights/techniques.glsl"
 
 #if ROUND_LIGHTS

@@ -1,8 +1,8 @@
-#ifndef NUSSELT_PASSES_LIGHTS_ROUND_INTEGRALS_GLSL
-#define NUSSELT_PASSES_LIGHTS_ROUND_INTEGRALS_GLSL
+#ifndef NUSSELT_PASSES_ROUNDS_ROUND_INTEGRALS_GLSL
+#define NUSSELT_PASSES_ROUNDS_ROUND_INTEGRALS_GLSL
 /// Integrates over all spheres, disks, ellipses and ellipsoids.
 
-#include "passes/lights/round.glsl"
+#include "passes/rounds/round.glsl"
 
 #if ROUND_LIGHTS
 #include "nusselt/cones/cone_shading.glsl"

@@ -1,5 +1,5 @@
-#ifndef NUSSELT_PASSES_LIGHTS_ROUND_GLSL
-#define NUSSELT_PASSES_LIGHTS_ROUND_GLSL
+#ifndef NUSSELT_PASSES_ROUNDS_ROUND_GLSL
+#define NUSSELT_PASSES_ROUNDS_ROUND_GLSL
 /// Spheres, disks, ellipses and ellipsoids as a shading point and a camera see them, as in
 /// src/render_cpu/kernel/lights/round_light.h.
 
