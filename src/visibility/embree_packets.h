@@ -14,7 +14,8 @@ namespace nusselt::visibility {
 
 // Bits of the ray masks.
 inline constexpr unsigned kSurfaceMask = 1;
-inline constexpr unsigned kLightMask = 2;
+inline constexpr unsigned kLightMask = 2;  ///< what only camera rays meet
+inline constexpr unsigned kShadowMask = 4; ///< what only shadow rays meet
 
 /// The scene behind RayTracer::context of EmbreeScene::tracer().
 inline RTCScene embree_scene(const void* context) { return static_cast<const TracedScene*>(context)->embree; }
@@ -100,7 +101,7 @@ template <int N>
 struct ShadowQuery {
     ShadowQuery(std::uint32_t active, const RayPacket<N>& rays) {
         mark_valid_lanes(active, rays, valid);
-        copy_rays(rays, kSurfaceMask, packet);
+        copy_rays(rays, kSurfaceMask | kShadowMask, packet);
     }
 
     /// \copydoc ClosestHitQuery::trace

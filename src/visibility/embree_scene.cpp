@@ -4,6 +4,7 @@
 #include "visibility/alpha.h"
 #include "visibility/embree_device.h"
 #include "visibility/embree_packets.h"
+#include "visibility/round_occluders.h"
 #include "visibility/scene_parts.h"
 
 #include <nusselt/random/pcg.h>
@@ -187,6 +188,7 @@ struct EmbreeScene::State {
 
     void attach_part(RTCScene target, const ScenePart& part);
     void attach_lights();
+    void attach_round_lights();
     void attach_instances();
 
     const scene::Scene& scene;
@@ -194,6 +196,7 @@ struct EmbreeScene::State {
     Buffer positions;
     std::vector<SceneHandle> objects;
     SceneHandle world;
+    RoundOccluders round_lights;
     TracedScene traced;
 };
 
@@ -202,6 +205,8 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
     traced.scene = &scene;
     // Filters point to the parts: these must stay where they are.
     traced.parts = make_parts(scene);
+    round_lights = make_round_occluders(scene);
+    separate_seen(traced.parts[0], round_lights.triangles);
     for (std::size_t i = 1; i < traced.parts.size(); ++i) {
         objects.push_back(make_scene(device.get(), scene.triangles.size()));
         attach_part(objects.back().get(), traced.parts[i]);
@@ -210,6 +215,7 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
     world = make_scene(device.get(), scene.triangles.size());
     attach_part(world.get(), traced.parts[0]);
     attach_lights();
+    attach_round_lights();
     attach_instances();
     commit(device.get(), world.get());
     traced.embree = world.get();
@@ -251,6 +257,18 @@ void EmbreeScene::State::attach_lights() {
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
     attach(device.get(), world.get(), geometry.get(), kLightGeometry);
     traced.lights = std::move(mesh.lights);
+}
+
+void EmbreeScene::State::attach_round_lights() {
+    if (round_lights.lights.empty()) return;
+    const Geometry seen =
+        make_triangle_geometry(device.get(), positions.get(), scene.positions.size(), kLightMask);
+    copy_indices(device.get(), seen.get(), scene.triangles, traced.parts[0].seen);
+    attach(device.get(), world.get(), seen.get(), kSeenGeometry);
+    const Geometry shadows(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    set_occluders(shadows.get(), round_lights.lights);
+    rtcSetGeometryMask(shadows.get(), kShadowMask);
+    attach(device.get(), world.get(), shadows.get(), kRoundGeometry);
 }
 
 void EmbreeScene::State::attach_instances() {

@@ -13,7 +13,9 @@ namespace nusselt::visibility {
 inline constexpr unsigned kFullGeometry = 0;
 inline constexpr unsigned kLightGeometry = 1;   ///< lights that are no surfaces
 inline constexpr unsigned kPartialGeometry = 2; ///< surfaces with an alpha below 1: hits pass a filter
-inline constexpr unsigned kFirstInstance = 3;
+inline constexpr unsigned kSeenGeometry = 3;    ///< triangles of round lights, for camera rays
+inline constexpr unsigned kRoundGeometry = 4;   ///< exact round lights, for shadow rays
+inline constexpr unsigned kFirstInstance = 5;
 
 /// The triangles of the world or of an object.
 struct ScenePart {
@@ -22,16 +24,20 @@ struct ScenePart {
     std::uint32_t triangle_count = 0;
     /// Whether all triangles of the range make up kFullGeometry in their order; else the lists say which do.
     bool is_full = true;
-    std::vector<std::uint32_t> full, partial; ///< indices into Scene::triangles
+    std::vector<std::uint32_t> full = {}, partial = {}, seen = {}; ///< indices into Scene::triangles
 
     std::uint32_t triangle_of(unsigned geometry, unsigned primitive) const {
         if (geometry == kPartialGeometry) return partial[primitive];
+        if (geometry == kSeenGeometry) return seen[primitive];
         return is_full ? first_triangle + primitive : full[primitive];
     }
 };
 
 /// The world, then the objects. \param scene must outlive the result
 std::vector<ScenePart> make_parts(const scene::Scene& scene);
+
+/// Moves triangles that are always there to kSeenGeometry. \param triangles in ascending order
+void separate_seen(ScenePart& part, const std::vector<std::uint32_t>& triangles);
 
 /// The target of RayTracer::context of EmbreeScene::tracer().
 struct TracedScene {

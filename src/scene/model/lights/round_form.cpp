@@ -1,9 +1,9 @@
 #include "scene/model/lights/round_form.h"
 
+#include "scene/model/lights/round_shell.h"
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace nusselt::scene {
@@ -36,7 +36,6 @@ RoundForm make_form(const RoundLight& light) {
     form.radiance = light.radiance;
     form.emits_outwards = light.two_sided || light.model != RoundModel::hollow;
     form.emits_inwards = light.two_sided || light.model == RoundModel::hollow;
-    form.shell = 1;
     form.normal = to_float(normalized(cross(axis[0], axis[1])));
     if (is_flat(light)) return form;
     const double volume = dot(axis[0], cross(axis[1], axis[2]));
@@ -45,50 +44,16 @@ RoundForm make_form(const RoundLight& light) {
     return form;
 }
 
-Double3 in_unit_sphere(const RoundForm& form, const Float3& p) {
-    const Double3 offset = to_double(p) - to_double(form.center);
-    return {dot(to_double(form.inverse[0]), offset), dot(to_double(form.inverse[1]), offset),
-            dot(to_double(form.inverse[2]), offset)};
-}
-
-/// The distance of the plane of a triangle from the centre, in the space of the unit sphere.
-double plane_distance(const Scene& scene, const RoundForm& form, const Triangle& triangle) {
-    Double3 p[3];
-    for (std::size_t i = 0; i < 3; ++i) p[i] = in_unit_sphere(form, scene.positions[triangle.vertex[i]]);
-    return std::fabs(dot(normalized(cross(p[1] - p[0], p[2] - p[0])), p[0]));
-}
-
-/// Shrinks the shells of lights that emit inwards into their surfaces.
-/// \param first the number of the first form among all lights of the scene
-void fit_shells(const Scene& scene, std::size_t first, std::vector<RoundForm>& forms) {
-    const auto is_relevant = [](const RoundForm& form) {
-        return form.emits_inwards != 0 &&
-               (form.shape == RoundShape::sphere || form.shape == RoundShape::ellipsoid);
-    };
-    if (std::none_of(forms.begin(), forms.end(), is_relevant)) return;
-    constexpr double kMargin = 1e-4; // for rounding, and because shadow rays have to end before the surface
-    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const std::int64_t index = std::int64_t{scene.triangle_light[i]} - static_cast<std::int64_t>(first);
-        if (index < 0 || index >= static_cast<std::int64_t>(forms.size())) continue;
-        RoundForm& form = forms[static_cast<std::size_t>(index)];
-        if (!is_relevant(form)) continue;
-        const double distance = plane_distance(scene, form, scene.triangles[i]);
-        // Comparisons with NaN, of triangles without area, are false.
-        if (distance * (1 - kMargin) < form.shell) form.shell = static_cast<float>(distance * (1 - kMargin));
-    }
-}
-
 } // namespace
 
 std::vector<RoundForm> round_forms(const Scene& scene) {
     std::vector<RoundForm> forms;
-    std::size_t first = 0;
-    for (const LightList& list : scene.lights) {
-        if (dynamic_cast<const LightsOf<RoundLight>*>(&list) != nullptr) break;
-        first += list.size();
-    }
     for (const RoundLight& light : scene.lights.of<RoundLight>()) forms.push_back(make_form(light));
-    fit_shells(scene, first, forms);
+    // For rounding, and because shadow rays have to end before the surface.
+    constexpr double kMargin = 1e-4;
+    const std::vector<double> shells = round_shells(scene);
+    for (std::size_t i = 0; i < forms.size(); ++i)
+        forms[i].shell = static_cast<float>((1 - kMargin) * shells[i]);
     return forms;
 }
 
