@@ -12,13 +12,10 @@
 
 namespace nusselt::visibility {
 
-// Bits of the ray masks.
-inline constexpr unsigned kSurfaceMask = 1;
-inline constexpr unsigned kLightMask = 2;  ///< what only camera rays meet
-inline constexpr unsigned kShadowMask = 4; ///< what only shadow rays meet
-
 /// The scene behind RayTracer::context of EmbreeScene::tracer().
-inline RTCScene embree_scene(const void* context) { return static_cast<const TracedScene*>(context)->embree; }
+inline const TracedScene& traced_scene(const void* context) {
+    return *static_cast<const TracedScene*>(context);
+}
 
 /// Lanes that Embree can take: without branches, so that it vectorises.
 template <int N>
@@ -37,7 +34,7 @@ inline void mark_valid_lanes(std::uint32_t active, const RayPacket<N>& rays, int
 }
 
 template <class EmbreeRays, int N>
-inline void copy_rays(const RayPacket<N>& rays, unsigned mask, EmbreeRays& target) {
+inline void copy_rays(const RayPacket<N>& rays, EmbreeRays& target) {
     static_assert(sizeof target.org_x == sizeof rays.t_far);
     std::memcpy(target.org_x, rays.origin[0], sizeof target.org_x);
     std::memcpy(target.org_y, rays.origin[1], sizeof target.org_y);
@@ -49,7 +46,7 @@ inline void copy_rays(const RayPacket<N>& rays, unsigned mask, EmbreeRays& targe
     for (int i = 0; i < N; ++i) {
         target.tnear[i] = 0;
         target.time[i] = 0;
-        target.mask[i] = mask;
+        target.mask[i] = ~0u;
         target.id[i] = 0;
         target.flags[i] = 0;
     }
@@ -80,17 +77,21 @@ struct Embree<16> {
     static constexpr auto occluded = rtcOccluded16;
 };
 
-/// Closest hits of coherent rays that see surfaces and tubes.
+/// Closest hits of coherent rays that see surfaces and lights.
 template <int N>
 struct ClosestHitQuery {
     ClosestHitQuery(std::uint32_t active, const RayPacket<N>& rays) {
         mark_valid_lanes(active, rays, valid);
-        copy_rays(rays, kSurfaceMask | kLightMask, packet.ray);
+        copy_rays(rays, packet.ray);
         for (int i = 0; i < N; ++i) packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
 
     /// Embree's answer overwrites the packet.
-    void trace(RTCScene scene) { intersect_coherent(Embree<N>::intersect, valid, scene, packet); }
+    void trace(const TracedScene& scene) {
+        intersect_coherent(Embree<N>::intersect, valid, scene.all, packet);
+        // Rays end at what they have met, and keep it where they meet nothing closer.
+        if (scene.seen != nullptr) intersect_coherent(Embree<N>::intersect, valid, scene.seen, packet);
+    }
 
     alignas(64) int valid[N]; ///< -1 for lanes to trace, 0 for others
     typename Embree<N>::RayHits packet;
@@ -101,11 +102,11 @@ template <int N>
 struct ShadowQuery {
     ShadowQuery(std::uint32_t active, const RayPacket<N>& rays) {
         mark_valid_lanes(active, rays, valid);
-        copy_rays(rays, kSurfaceMask | kShadowMask, packet);
+        copy_rays(rays, packet);
     }
 
     /// \copydoc ClosestHitQuery::trace
-    void trace(RTCScene scene) { find_occluded(Embree<N>::occluded, valid, scene, packet); }
+    void trace(const TracedScene& scene) { find_occluded(Embree<N>::occluded, valid, scene.all, packet); }
 
     alignas(64) int valid[N]; ///< as above
     typename Embree<N>::Rays packet;

@@ -12,7 +12,6 @@
 
 #include <bit>
 #include <cstring>
-#include <stdexcept>
 
 namespace nusselt::visibility {
 
@@ -33,14 +32,6 @@ struct GeometryDeleter {
 using SceneHandle = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Buffer = std::unique_ptr<RTCBufferTy, BufferDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
-
-Device make_ray_device() {
-    Device device = make_device();
-    if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
-        throw std::runtime_error(
-            "the installed Embree lacks ray masks; install one built with EMBREE_RAY_MASK");
-    return device;
-}
 
 /// A number in [0, 1) that depends only on the ray and the triangle: each hit of a ray gets its own.
 float random_of(RTCRayN* ray, RTCHitN* hit, unsigned n, unsigned i, std::uint32_t triangle) {
@@ -74,12 +65,10 @@ Buffer make_position_buffer(RTCDevice device, const std::vector<scene::Float3>& 
     return buffer;
 }
 
-Geometry make_triangle_geometry(RTCDevice device, RTCBuffer positions, std::size_t position_count,
-                                unsigned mask) {
+Geometry make_triangle_geometry(RTCDevice device, RTCBuffer positions, std::size_t position_count) {
     Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0,
                          sizeof(scene::Float3), position_count);
-    rtcSetGeometryMask(geometry.get(), mask);
     return geometry;
 }
 
@@ -130,9 +119,9 @@ void copy_places(const ClosestHitQuery<N>& query, HitPacket<N>& hits) {
 template <int N>
 void intersect_plain(const void* context, std::uint32_t active, const RayPacket<N>& rays,
                      HitPacket<N>& hits) {
-    const auto& scene = *static_cast<const TracedScene*>(context);
+    const TracedScene& scene = traced_scene(context);
     ClosestHitQuery<N> query(active, rays);
-    query.trace(scene.embree);
+    query.trace(scene);
     copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
@@ -146,9 +135,9 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
 
 template <int N>
 void intersect(const void* context, std::uint32_t active, const RayPacket<N>& rays, HitPacket<N>& hits) {
-    const auto& scene = *static_cast<const TracedScene*>(context);
+    const TracedScene& scene = traced_scene(context);
     ClosestHitQuery<N> query(active, rays);
-    query.trace(scene.embree);
+    query.trace(scene);
     copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
@@ -171,7 +160,7 @@ void intersect(const void* context, std::uint32_t active, const RayPacket<N>& ra
 template <int N>
 std::uint32_t occluded(const void* context, std::uint32_t active, const RayPacket<N>& rays) {
     ShadowQuery<N> query(active, rays);
-    query.trace(embree_scene(context));
+    query.trace(traced_scene(context));
     std::uint32_t blocked = 0;
     for (int i = 0; i < N; ++i) {
         // Embree sets tfar to minus infinity where something is in the way.
@@ -187,15 +176,15 @@ struct EmbreeScene::State {
     explicit State(const scene::Scene& scene_to_trace);
 
     void attach_part(RTCScene target, const ScenePart& part);
-    void attach_lights();
     void attach_round_lights();
+    void make_seen();
     void attach_instances();
 
     const scene::Scene& scene;
-    Device device = make_ray_device();
+    Device device = make_device();
     Buffer positions;
     std::vector<SceneHandle> objects;
-    SceneHandle world;
+    SceneHandle world, seen;
     RoundOccluders round_lights;
     TracedScene traced;
 };
@@ -214,11 +203,11 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
     }
     world = make_scene(device.get(), scene.triangles.size());
     attach_part(world.get(), traced.parts[0]);
-    attach_lights();
     attach_round_lights();
     attach_instances();
     commit(device.get(), world.get());
-    traced.embree = world.get();
+    traced.all = world.get();
+    make_seen();
     // The scene keeps what it needs of them.
     positions.reset();
     objects.clear();
@@ -226,7 +215,7 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
 
 void EmbreeScene::State::attach_part(RTCScene target, const ScenePart& part) {
     const auto make_geometry = [&] {
-        return make_triangle_geometry(device.get(), positions.get(), scene.positions.size(), kSurfaceMask);
+        return make_triangle_geometry(device.get(), positions.get(), scene.positions.size());
     };
     if (part.is_full ? part.triangle_count > 0 : !part.full.empty()) {
         const Geometry geometry = make_geometry();
@@ -245,30 +234,37 @@ void EmbreeScene::State::attach_part(RTCScene target, const ScenePart& part) {
     attach(device.get(), target, geometry.get(), kPartialGeometry);
 }
 
-void EmbreeScene::State::attach_lights() {
-    scene::LightMesh mesh = make_light_mesh(scene);
-    if (mesh.triangles.empty()) return;
-    const Buffer mesh_positions = make_position_buffer(device.get(), mesh.positions);
-    const Geometry geometry =
-        make_triangle_geometry(device.get(), mesh_positions.get(), mesh.positions.size(), kLightMask);
-    void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(scene::Triangle), mesh.triangles.size());
-    check_for_error(device.get());
-    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
-    attach(device.get(), world.get(), geometry.get(), kLightGeometry);
-    traced.lights = std::move(mesh.lights);
-}
-
 void EmbreeScene::State::attach_round_lights() {
     if (round_lights.lights.empty()) return;
-    const Geometry seen =
-        make_triangle_geometry(device.get(), positions.get(), scene.positions.size(), kLightMask);
-    copy_indices(device.get(), seen.get(), scene.triangles, traced.parts[0].seen);
-    attach(device.get(), world.get(), seen.get(), kSeenGeometry);
-    const Geometry shadows(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-    set_occluders(shadows.get(), round_lights.lights);
-    rtcSetGeometryMask(shadows.get(), kShadowMask);
-    attach(device.get(), world.get(), shadows.get(), kRoundGeometry);
+    const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    set_occluders(geometry.get(), round_lights.lights);
+    attach(device.get(), world.get(), geometry.get(), kRoundGeometry);
+}
+
+void EmbreeScene::State::make_seen() {
+    scene::LightMesh mesh = make_light_mesh(scene);
+    const std::vector<std::uint32_t>& round = traced.parts[0].seen;
+    if (mesh.triangles.empty() && round.empty()) return;
+    seen = make_scene(device.get(), mesh.triangles.size() + round.size());
+    if (!mesh.triangles.empty()) {
+        const Buffer mesh_positions = make_position_buffer(device.get(), mesh.positions);
+        const Geometry geometry =
+            make_triangle_geometry(device.get(), mesh_positions.get(), mesh.positions.size());
+        void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                sizeof(scene::Triangle), mesh.triangles.size());
+        check_for_error(device.get());
+        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
+        attach(device.get(), seen.get(), geometry.get(), kLightGeometry);
+        traced.lights = std::move(mesh.lights);
+    }
+    if (!round.empty()) {
+        const Geometry geometry =
+            make_triangle_geometry(device.get(), positions.get(), scene.positions.size());
+        copy_indices(device.get(), geometry.get(), scene.triangles, round);
+        attach(device.get(), seen.get(), geometry.get(), kSeenGeometry);
+    }
+    commit(device.get(), seen.get());
+    traced.seen = seen.get();
 }
 
 void EmbreeScene::State::attach_instances() {
@@ -278,7 +274,6 @@ void EmbreeScene::State::attach_instances() {
         rtcSetGeometryInstancedScene(geometry.get(), objects[instance.object].get());
         rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
                                 instance.world_from_object.data());
-        rtcSetGeometryMask(geometry.get(), kSurfaceMask);
         attach(device.get(), world.get(), geometry.get(), kFirstInstance + static_cast<unsigned>(i));
     }
 }

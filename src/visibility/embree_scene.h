@@ -19,8 +19,7 @@ class EmbreeScene {
 public:
     /// Builds the hierarchy with the threads of the caller's oneTBB arena.
     /// \param scene must outlive this object
-    /// \throws std::runtime_error if Embree reports an error (such as a lack of memory) or was built without ray
-    ///         masks
+    /// \throws std::runtime_error if Embree reports an error (such as a lack of memory)
     explicit EmbreeScene(const scene::Scene& scene);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;

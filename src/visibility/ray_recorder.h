@@ -59,7 +59,7 @@ public:
     /// rays enter the cache, before the clock starts.
     ReplaySeconds replay(const RayBatch<N>& batch) const {
         RayBatch<N> copy = batch;
-        const RTCScene scene = embree_scene(inner_.context);
+        const TracedScene& scene = traced_scene(inner_.context);
         const double begin = thread_seconds();
         for (ClosestHitQuery<N>& query : copy.closest_hit) query.trace(scene);
         const double middle = thread_seconds();

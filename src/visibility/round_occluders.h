@@ -1,6 +1,6 @@
 #pragma once
-/// Round lights as shadow rays meet them: by the equation of the exact shape. The thousands of triangles that cameras see of one
-/// would take ten times as long, because most rays to the light end next to them.
+/// Round lights as shadow rays meet them: by the equation of the exact shape. Most shadow rays to a light end next to it, and would
+/// search the thousands of triangles that cameras see.
 
 #include "scene/model/scene.h"
 #include "visibility/embree_api.h"

@@ -11,11 +11,12 @@ namespace nusselt::visibility {
 
 // Numbers of geometries in the world and in objects.
 inline constexpr unsigned kFullGeometry = 0;
-inline constexpr unsigned kLightGeometry = 1;   ///< lights that are no surfaces
-inline constexpr unsigned kPartialGeometry = 2; ///< surfaces with an alpha below 1: hits pass a filter
-inline constexpr unsigned kSeenGeometry = 3;    ///< triangles of round lights, for camera rays
-inline constexpr unsigned kRoundGeometry = 4;   ///< exact round lights, for shadow rays
-inline constexpr unsigned kFirstInstance = 5;
+inline constexpr unsigned kPartialGeometry = 1; ///< surfaces with an alpha below 1: hits pass a filter
+inline constexpr unsigned kRoundGeometry = 2;   ///< exact round lights, which camera rays pass
+inline constexpr unsigned kFirstInstance = 3;
+// Numbers of geometries that only camera rays meet. They differ from those of the world.
+inline constexpr unsigned kLightGeometry = 3; ///< lights that are no surfaces
+inline constexpr unsigned kSeenGeometry = 4;  ///< triangles of round lights
 
 /// The triangles of the world or of an object.
 struct ScenePart {
@@ -41,7 +42,10 @@ void separate_seen(ScenePart& part, const std::vector<std::uint32_t>& triangles)
 
 /// The target of RayTracer::context of EmbreeScene::tracer().
 struct TracedScene {
-    RTCScene embree = nullptr;
+    RTCScene all = nullptr; ///< what shadow rays meet, and camera rays too
+    /// What only camera rays meet; null if there is none. A scene of its own: shadow rays would search it in vain, since many end
+    /// next to it.
+    RTCScene seen = nullptr;
     const scene::Scene* scene = nullptr;
     std::vector<ScenePart> parts;
     std::vector<std::uint32_t> lights; ///< of each triangle of kLightGeometry: see scene::LightMesh
