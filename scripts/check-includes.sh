@@ -54,7 +54,7 @@ BEGIN {
     allow("src/visibility", "library src/scene/model src/interface")
     allow("src/tables", "library")
     allow("src/fit", "library src/base src/image")
-    allow("src/render", "src/base src/image src/scene/model src/interface")
+    allow("src/render", "library src/base src/image src/scene/model src/interface")
     allow("src/render_cpu", "library src/base src/image src/scene/model src/visibility src/tables src/render src/interface")
     # The build generates SPIR-V as arrays. The two renderers never see each other.
     allow("src/shaders", "")

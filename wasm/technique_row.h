@@ -2,12 +2,8 @@
 /// The functions of a technique over columns of lights.
 
 #include <new>
-#include <type_traits>
 
-#include <nusselt/core/light_sample.h>
-#include <nusselt/ltc/ltc.h>
-
-#include "wasm/light_columns.h"
+#include "wasm/technique_columns.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace columns {
@@ -36,49 +32,35 @@ struct TechniqueRow {
 /// \tparam Technique for such lights in Floats
 template <class Light, class Technique>
 struct ColumnsOf {
+    using Of = TechniqueOf<Light, Technique, Floats>;
     static constexpr int kLanes = RealTraits<Floats>::kLanes;
 
-    static Technique make(const Reader<Floats>& reader, int columns) noexcept {
-        if constexpr (std::is_constructible_v<Technique, decltype(Light::read(reader, columns))>)
-            return Technique(Light::read(reader, columns));
-        else
-            return Technique(Light::read(reader, columns), Ltc(Light::lobe(reader, columns)));
-    }
     static void prepare(const float* lights, int columns, int groups, void* prepared) noexcept {
         for (int i = 0; i < groups; ++i)
             new (static_cast<Technique*>(prepared) + i)
-                Technique(make(Reader<Floats>{lights + kLanes * i, stride(groups)}, columns));
+                Technique(Of::make(Reader<Floats>{lights + kLanes * i, stride(groups)}, columns));
     }
 
     static void sample(const void* prepared, int groups, int rounds, const float* u, float* wi, float* pdf,
                        float* p) noexcept {
         for_each(prepared, groups, rounds, [=](const Technique& technique, const Place& at) {
-            const LightSample<Floats> sample = draw(technique, random(at.reader(u, Light::kRandom)));
-            at.writer(wi, 3).vector(0, sample.wi);
-            at.writer(pdf, 1).number(0, sample.pdf);
-            at.writer(p, 3).vector(0, sample.p);
+            Of::sample(technique, at.reader(u, Light::kRandom), at.writer(wi, 3), at.writer(pdf, 1),
+                       at.writer(p, 3));
         });
     }
     static void pdf(const void* prepared, int groups, int rounds, const float* wi, float* pdf) noexcept {
         for_each(prepared, groups, rounds, [=](const Technique& technique, const Place& at) {
-            at.writer(pdf, 1).number(0, technique.pdf(at.reader(wi, 3).vector(0)));
+            Of::pdf(technique, at.reader(wi, 3), at.writer(pdf, 1));
         });
     }
     static void invert(const void* prepared, int groups, int rounds, const float* wi, float* u) noexcept {
         for_each(prepared, groups, rounds, [=](const Technique& technique, const Place& at) {
-            const auto inverse = technique.invert(at.reader(wi, 3).vector(0));
-            const Writer<Floats> writer = at.writer(u, Light::kRandom);
-            if constexpr (Light::kRandom == 1) {
-                writer.number(0, inverse);
-            } else {
-                writer.number(0, inverse.x);
-                writer.number(1, inverse.y);
-            }
+            Of::invert(technique, at.reader(wi, 3), at.writer(u, Light::kRandom));
         });
     }
     static void measure(const void* prepared, int groups, float* measure) noexcept {
         for_each(prepared, groups, 1, [=](const Technique& technique, const Place& at) {
-            at.writer(measure, 1).number(0, technique.measure());
+            Of::measure(technique, at.writer(measure, 1));
         });
     }
 
@@ -113,13 +95,6 @@ private:
         for (int group = 0; group < groups; ++group)
             for (int round = 0; round < rounds; ++round)
                 visit(static_cast<const Technique*>(prepared)[group], Place{group, round, stride(groups)});
-    }
-
-    static Vec2<Floats> random(const Reader<Floats>& u) noexcept {
-        if constexpr (Light::kRandom == 1)
-            return {u.number(0), Floats(0)};
-        else
-            return {u.number(0), u.number(1)};
     }
 };
 

@@ -1,7 +1,7 @@
 #include "python/bindings/bindings.h"
 #include "python/bindings/without_gil.h"
 
-#include "render/settings.h"
+#include "render/choices/sampler.h"
 #include "tables/blue_noise.h"
 
 #include <nusselt/random/light_random.h>
@@ -18,30 +18,12 @@ namespace {
 
 using Numbers = py::array_t<std::uint32_t, py::array::c_style>;
 
-Sampler sampler_of(const std::string& name) {
-    switch (render::from_name(render::kSampleOrders, name)) {
-    case render::SampleOrder::independent:
-        return Sampler::independent;
-    case render::SampleOrder::jittered:
-        return Sampler::jittered;
-    case render::SampleOrder::stratified:
-        return Sampler::stratified;
-    case render::SampleOrder::z_sobol:
-        return Sampler::z_sobol;
-    case render::SampleOrder::blue_noise:
-        return Sampler::blue_noise;
-    case render::SampleOrder::sobol:
-        break;
-    }
-    return Sampler::sobol;
-}
-
 /// Random numbers of samples; all arrays have the same size and are contiguous.
 template <class Scalar>
 void fill(const std::string& sampler, std::uint32_t seed, const Numbers& x, const Numbers& y,
           const Numbers& sample, std::uint32_t sample_count, std::uint32_t light, std::uint32_t pair,
           py::array_t<Scalar>& u) {
-    const Sampler kind = sampler_of(sampler);
+    const Sampler kind = sampler_of(render::from_name(render::kSampleOrders, sampler));
     const auto* const xs = x.data();
     const auto* const ys = y.data();
     const auto* const samples = sample.data();

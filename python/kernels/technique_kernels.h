@@ -2,13 +2,9 @@
 /// The functions of a technique over blocks of columns.
 
 #include <new>
-#include <type_traits>
-
-#include <nusselt/core/light_sample.h>
-#include <nusselt/ltc/ltc.h>
 
 #include "python/kernels/kernel.h"
-#include "wasm/light_columns.h"
+#include "wasm/technique_columns.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernels {
@@ -37,40 +33,32 @@ columns::Writer<Real> writer(const Block<scalar_t<Real>>& block, int output, int
 template <class Light, class Technique, class Real>
 struct TechniqueKernels {
     using Scalar = scalar_t<Real>;
+    using Of = columns::TechniqueOf<Light, Technique, Real>;
 
     static void prepare(const Block<Scalar>& block, void* state) noexcept {
         for (int pack = 0; pack < block.packs; ++pack)
             new (static_cast<Technique*>(state) + pack)
-                Technique(make(reader<Real>(block, 0, pack), block.columns));
+                Technique(Of::make(reader<Real>(block, 0, pack), block.columns));
     }
     static void sample(const Block<Scalar>& block) noexcept {
         for_each(block, [&](const Technique& technique, int pack) {
-            const LightSample<Real> sample = draw(technique, random(reader<Real>(block, 0, pack)));
-            writer<Real>(block, 0, pack).vector(0, sample.wi);
-            writer<Real>(block, 1, pack).number(0, sample.pdf);
-            writer<Real>(block, 2, pack).vector(0, sample.p);
+            Of::sample(technique, reader<Real>(block, 0, pack), writer<Real>(block, 0, pack),
+                       writer<Real>(block, 1, pack), writer<Real>(block, 2, pack));
         });
     }
     static void pdf(const Block<Scalar>& block) noexcept {
         for_each(block, [&](const Technique& technique, int pack) {
-            writer<Real>(block, 0, pack).number(0, technique.pdf(reader<Real>(block, 0, pack).vector(0)));
+            Of::pdf(technique, reader<Real>(block, 0, pack), writer<Real>(block, 0, pack));
         });
     }
     static void invert(const Block<Scalar>& block) noexcept {
         for_each(block, [&](const Technique& technique, int pack) {
-            const auto inverse = technique.invert(reader<Real>(block, 0, pack).vector(0));
-            const auto u = writer<Real>(block, 0, pack);
-            if constexpr (Light::kRandom == 1) {
-                u.number(0, inverse);
-            } else {
-                u.number(0, inverse.x);
-                u.number(1, inverse.y);
-            }
+            Of::invert(technique, reader<Real>(block, 0, pack), writer<Real>(block, 0, pack));
         });
     }
     static void measure(const Block<Scalar>& block) noexcept {
         for_each(block, [&](const Technique& technique, int pack) {
-            writer<Real>(block, 0, pack).number(0, technique.measure());
+            Of::measure(technique, writer<Real>(block, 0, pack));
         });
     }
 
@@ -81,25 +69,11 @@ struct TechniqueKernels {
     }
 
 private:
-    static Technique make(const columns::Reader<Real>& light, int columns) noexcept {
-        if constexpr (std::is_constructible_v<Technique, decltype(Light::read(light, columns))>)
-            return Technique(Light::read(light, columns));
-        else
-            return Technique(Light::read(light, columns), Ltc(Light::lobe(light, columns)));
-    }
-
     template <class Visit>
     static void for_each(const Block<Scalar>& block, const Visit& visit) noexcept {
         const char* state = static_cast<const char*>(block.state);
         for (int pack = 0; pack < block.packs; ++pack, state += block.step)
             visit(*reinterpret_cast<const Technique*>(state), pack);
-    }
-
-    static Vec2<Real> random(const columns::Reader<Real>& u) noexcept {
-        if constexpr (Light::kRandom == 1)
-            return {u.number(0), Real(0)};
-        else
-            return {u.number(0), u.number(1)};
     }
 };
 

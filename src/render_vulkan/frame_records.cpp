@@ -1,5 +1,7 @@
 #include "render_vulkan/frame_records.h"
 
+#include "render/choices/sampler.h"
+
 #include <nusselt/random/light_random.h>
 
 #include <algorithm>
@@ -8,24 +10,6 @@
 namespace nusselt::render_vulkan {
 
 namespace {
-
-Sampler sampler_of(render::SampleOrder order) {
-    switch (order) {
-    case render::SampleOrder::independent:
-        return Sampler::independent;
-    case render::SampleOrder::jittered:
-        return Sampler::jittered;
-    case render::SampleOrder::stratified:
-        return Sampler::stratified;
-    case render::SampleOrder::z_sobol:
-        return Sampler::z_sobol;
-    case render::SampleOrder::blue_noise:
-        return Sampler::blue_noise;
-    case render::SampleOrder::sobol:
-        break;
-    }
-    return Sampler::sobol;
-}
 
 /// Maps a random number to the offset along one axis, and multiplies the weight by that of the filter.
 float filtered_offset(const render::PixelFilterTable& table, float radius, float u, float& weight) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Random numbers for packets of pixels.
 
+#include "render/choices/sampler.h"
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
 
@@ -27,24 +28,6 @@ struct PacketSamples {
     }
     std::uint32_t number[kLanes];
 };
-
-inline Sampler sampler_of(render::SampleOrder order) noexcept {
-    switch (order) {
-    case render::SampleOrder::independent:
-        return Sampler::independent;
-    case render::SampleOrder::jittered:
-        return Sampler::jittered;
-    case render::SampleOrder::stratified:
-        return Sampler::stratified;
-    case render::SampleOrder::z_sobol:
-        return Sampler::z_sobol;
-    case render::SampleOrder::blue_noise:
-        return Sampler::blue_noise;
-    case render::SampleOrder::sobol:
-        break;
-    }
-    return Sampler::sobol;
-}
 
 /// The pairs of random numbers for a light.
 enum RandomPair : std::uint32_t {
