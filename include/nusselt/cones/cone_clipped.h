@@ -142,7 +142,7 @@ private:
 
     Ltc<Real> ltc_;
     LightView<Light<Real>> view_; ///< its cone is in cosine space
-    CosineCone<Real, Steps> image_;
+    CosineCone<Real, Steps, kConePlaces> image_;
     TurnsAbovePlane<Real> turns_; ///< above the surface's horizon, in cosine space
 
     friend struct detail::Members;
