@@ -45,9 +45,8 @@ gpu::ComputePipeline make_pipeline(const DeviceScene& scene, const std::vector<s
     const gpu::Device& device = scene.device();
     const ShadowScene& shadows = scene.shadows();
     const SceneTextures& textures = scene.textures();
-    const bool has_rounds = has_round_lights(constants);
     const ShaderVariant variant{scene.polygon_slots(), textures.access(),
-                                has_rounds || has_emission_cells(constants), has_rounds};
+                                has_round_lights(constants) || has_emission_cells(constants)};
     gpu::ComputeInterface interface {
         .storage_buffers = kShadingBuffers, .images = textures.images(),
         .push_constant_size = sizeof(interface::FrameRecord), .constants = constants

@@ -24,10 +24,9 @@ ShadingPassKind sampling_pass(ShadowRays way);
 struct ShaderVariant {
     int polygon_slots; ///< 4 or 8, see LightRecords
     TextureAccess textures;
-    /// For environments without a portal and where images of polygons decide where samples are: with 8 slots only.
-    bool emission_cells;
-    /// Whether there is code for spheres, disks, ellipses and ellipsoids: with 8 slots and cells only.
-    bool round_lights;
+    /// For environments without a portal, where images of polygons decide where samples are, and for spheres, disks, ellipses and
+    /// ellipsoids: with 8 slots only.
+    bool all_lights;
     bool operator==(const ShaderVariant&) const = default;
 };
 
