@@ -124,7 +124,9 @@ Errors errors_of(Place place, int lights, const Broken& broken) {
     return errors;
 }
 
-/// Upper bounds of the error in the turn around the pole at 50, 99 and 99.9 % of the lights.
+/// Upper bounds of the error in the turn around the pole at 50, 99 and 99.9 % of the lights. Quick effort has too few lights to tell
+/// the last two apart: 99 % of them are within five times the bound, and the last bound is not looked at. 1 is no bound: one in 400
+/// touching lights is interpolated linearly.
 struct Row {
     const char* name;
     Place place;
@@ -135,16 +137,17 @@ constexpr double kShares[] = {0.5, 0.99, 0.999};
 
 template <class T, class Broken>
 bool are_within(const Row& row, const Broken& broken) {
+    const bool has_many = at_effort(false, true);
     Errors errors = errors_of<T>(row.place, at_effort(80, 4000), broken);
-    bool within = true;
     double turn[3], way[3], measure[3];
     for (int i = 0; i < 3; ++i) {
         turn[i] = quantile(errors.turn, kShares[i]);
         way[i] = quantile(errors.way, kShares[i]);
         measure[i] = quantile(errors.measure, kShares[i]);
-        within = within && turn[i] <= row.turn[i];
     }
-    if (at_effort(false, true))
+    const bool within = turn[0] <= row.turn[0] && turn[1] <= (has_many ? 1 : 5) * row.turn[1] &&
+                        (!has_many || turn[2] <= row.turn[2]);
+    if (has_many)
         std::printf("| %s | %.0e / %.0e / %.0e | %.0e / %.0e / %.0e | %.0e / %.0e / %.0e | %.0f %% |\n",
                     row.name, turn[0], turn[1], turn[2], way[0], way[1], way[2], measure[0], measure[1],
                     measure[2], 100.0 * errors.exact / static_cast<double>(errors.turn.size()));
@@ -153,14 +156,16 @@ bool are_within(const Row& row, const Broken& broken) {
 
 const auto kRight = [](const auto& u) { return u; };
 
+constexpr Row kOrdinary = {"ordinary", Place::ordinary, {3e-07, 1e-05, 4e-05}};
+
 TEST(ConeBackwardErrorTest, FloatIsWithinItsBounds) {
-    constexpr Row kRows[] = {{"ordinary", Place::ordinary, {3e-07, 1e-05, 2e-05}},
-                             {"at the horizon", Place::at_horizon, {3e-07, 1e-05, 0.0005}},
+    constexpr Row kRows[] = {kOrdinary,
+                             {"at the horizon", Place::at_horizon, {3e-07, 1e-05, 0.0002}},
                              {"tiny, at the horizon", Place::tiny, {3e-07, 1e-05, 0.0002}},
                              {"seen edge-on", Place::edge_on, {3e-07, 1e-05, 0.0002}},
                              {"near", Place::near, {3e-07, 2e-06, 5e-05}},
-                             {"elongated", Place::elongated, {3e-07, 1e-05, 0.001}},
-                             {"touching", Place::touching, {4e-07, 1e-05, 0.4}},
+                             {"elongated", Place::elongated, {3e-07, 1e-05, 0.0001}},
+                             {"touching", Place::touching, {4e-07, 1e-05, 1}},
                              {"needles", Place::needle, {4e-07, 3e-05, 0.0003}}};
     for (const Row& row : kRows) EXPECT_TRUE(are_within<float>(row, kRight)) << row.name;
 }
@@ -172,14 +177,14 @@ TEST(ConeBackwardErrorTest, DoubleIsWithinItsBounds) {
                              {"seen edge-on", Place::edge_on, {1e-13, 1e-10, 1e-08}},
                              {"near", Place::near, {1e-14, 1e-09, 1e-05}},
                              {"elongated", Place::elongated, {1e-14, 1e-10, 1e-08}},
-                             {"touching", Place::touching, {1e-13, 0.0001, 0.4}},
+                             {"touching", Place::touching, {1e-13, 0.0001, 1}},
                              {"needles", Place::needle, {1e-12, 0.0001, 0.001}}};
     for (const Row& row : kRows) EXPECT_TRUE(are_within<double>(row, kRight)) << row.name;
 }
 
 TEST(ConeBackwardErrorTest, TurnsThatAreOffByAMillionthAreRejected) {
-    const Row row{"ordinary", Place::ordinary, {3e-7, 3e-6, 1e-5}};
-    EXPECT_FALSE(are_within<float>(row, [](const auto& u) {
+    EXPECT_TRUE(are_within<float>(kOrdinary, kRight));
+    EXPECT_FALSE(are_within<float>(kOrdinary, [](const auto& u) {
         return Vec2<float>{u.x + 1e-6f * (1 - u.x), u.y};
     }));
 }
