@@ -14,6 +14,7 @@ constexpr const char* kCorner = "samples next to the corner where all triangles 
                                 "direction passes from one to another";
 constexpr const char* kForeshortened =
     "a rounding of the direction is a large part of the line as it is seen";
+constexpr const char* kTiny = "a rounding of the direction is a large part of the light as it is seen";
 constexpr const char* kSilhouette =
     "a sample in a thousand is so close to the silhouette that its rounded direction "
     "misses the light, where the exact density is 0";
@@ -26,6 +27,7 @@ constexpr VacuousBudget kVacuousBudgets[] = {
     {"square of 1 mm at 40 m: second random number, tail", kCorner},
     {"pointing at the point within 1e-4: first random number, largest", kForeshortened},
     {"pointing at the point within 1e-4: first random number, far tail", kForeshortened},
+    {"1 mm at 40 m: second inverse, tail", kTiny},
     {"cylinder of 1 cm at 40 m: density, tail", kSilhouette},
     {"cylinder of 1 cm at 40 m: density of the sample, tail", kSilhouette},
 };

@@ -170,7 +170,7 @@ TEST_F(ScriptTest, NamesTheLineOfAMistake) {
     expect("load-camera missing.json\n", "1", "missing.json");
     expect("load-lights missing.json\n", "1", "missing.json");
     expect("tone-curve sepia\n", "1", "use one of none, reinhard, filmic");
-    expect("light-add sphere\n", "1", "use one of panel, tube");
+    expect("light-add cube\n", "1", "use one of panel, tube, sphere, disk");
     expect("light-remove\n", "1", "no light is selected");
     expect("light 0\nlight-kelvin 100\n", "2", "'100' must be a number from 1000 to 40000");
     expect("light 0\nlight-turn 0 0 0 5\n", "2", "the axis must not be zero");
