@@ -38,6 +38,11 @@ struct LocalRound {
 };
 
 Ellipse ellipse_of(const RoundShape shape) { return Ellipse(shape.center, shape.axis0, shape.axis1); }
+/// Disks with the semi-diameters of disk_light(), which the techniques of C++ take where they need no cone of the point.
+Ellipse fixed_ellipse_of(const RoundShape shape) {
+    if (shape.is_circular) return disk_light(shape.center, shape.normal, shape.radius);
+    return ellipse_of(shape);
+}
 Ellipsoid ellipsoid_of(const RoundShape shape) {
     return Ellipsoid(shape.center, shape.axis0, shape.axis1, shape.axis2);
 }
@@ -67,10 +72,10 @@ RoundLightView view_of(const RoundShape shape) {
 }
 /// In the cosine space of a lobe.
 RoundLightView view_of(RoundShape shape, const Ltc lobe) {
-    if (shape.is_circular && shape.is_flat) {
-        Ellipse disk = disk_light(shape.center, shape.normal, shape.radius);
-        shape.axis0 = disk.u;
-        shape.axis1 = disk.v;
+    if (shape.is_flat) {
+        Ellipse ellipse = fixed_ellipse_of(shape);
+        shape.axis0 = ellipse.u;
+        shape.axis1 = ellipse.v;
     }
     RoundLightView view = view_without_cone(shape);
     set_cone(view, lobe);

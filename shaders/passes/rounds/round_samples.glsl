@@ -29,7 +29,7 @@ RoundTechniques prepare_techniques(const RoundShape light, const GlossySurface s
     RoundTechniques self;
     self.is_by_area = kTechnique == kTechniqueArea && kHasEllipses && light.is_flat;
     if (self.is_by_area)
-        self.area = ellipse_area_prepare(ellipse_of(light));
+        self.area = ellipse_area_prepare(fixed_ellipse_of(light));
     else if (kIsSolidAngle || kTechnique == kTechniqueArea)
         self.solid_angle = cone_solid_angle_of(view_of(light));
     else if (kIsProjected)
