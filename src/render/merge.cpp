@@ -50,9 +50,6 @@ Rule rule_of(const image::Layer& layer) {
 
 /// The numbers of samples in the pixels of a file.
 std::vector<double> samples_of(const image::LayeredImage& image, const std::filesystem::path& path) {
-    if (image.metadata.count(image::kConvertedKey) != 0)
-        refuse(path, "it was converted by `nusselt convert`, which may have changed its pixels; merge the "
-                     "output of `nusselt render`");
     const std::size_t pixels =
         static_cast<std::size_t>(image.data.width) * static_cast<std::size_t>(image.data.height);
     if (const image::Layer* layer = image::find_layer(image, image::kSamplesLayer)) {
@@ -102,6 +99,10 @@ void check_content(const image::LayeredImage& image, const std::filesystem::path
     for (const image::Layer& layer : image.layers)
         if (layer.data.size() != pixels * layer.channels.size())
             refuse(path, "its layer '" + layer.name + "' has other pixels than its window");
+    // Before the hash, which converted images lack.
+    if (image.metadata.count(image::kConvertedKey) != 0)
+        refuse(path, "it was converted by `nusselt convert`, which may have changed its pixels; merge the "
+                     "output of `nusselt render`");
     if (image.metadata.count(image::kPackedHashKey) != 0) return; // unpack() has checked it
     try {
         check_content_hash(image);

@@ -4,6 +4,7 @@
 #include "image/srgb.h"
 #include "lab/peers/peer_comparison.h"
 #include "lab/report/report_folder.h"
+#include "lab/round/round_comparison.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -45,7 +46,8 @@ TEST(Report, ExperimentsHaveUniqueNamesThatArePartsOfPaths) {
     }
 }
 
-// Whoever renames or drops an experiment sees which figures lose it. Comparisons with other renderers are about no paper.
+// Whoever renames or drops an experiment sees which figures lose it. Comparisons with other renderers, and of round lights, are about none of
+// these papers.
 TEST(Report, EveryExperimentShowsAnItemOfThePapers) {
     std::ifstream file(std::filesystem::path(nusselt_test::kSourceFolder) / "lab/report/published.json");
     const auto published = nlohmann::json::parse(file);
@@ -56,6 +58,7 @@ TEST(Report, EveryExperimentShowsAnItemOfThePapers) {
         }
     std::set<std::string> others;
     for (const PeerComparison& comparison : all_peer_comparisons()) others.insert(comparison.name);
+    for (const RoundComparison& comparison : all_round_comparisons()) others.insert(comparison.name);
     for (const Experiment& e : all_experiments()) {
         EXPECT_EQ(named.count(e.name), others.count(e.name) > 0 ? 0u : 1u) << e.name << " shows nothing";
     }

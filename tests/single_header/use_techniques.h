@@ -59,6 +59,14 @@ void use_all(int seed) {
     const auto line = make_line(corners[0], corners[2]);
     const Vec2<Real> u{number(5), number(6)};
     const Cylinder<Real> cylinder{line, Real(0.25f)};
+    const Sphere<Real> sphere{corners[0], Real(0.5f)};
+    const Disk<Real> disk{corners[1], {Real(0), Real(1), Real(0)}, Real(0.5f)};
+    const Ellipse<Real> ellipse{
+        corners[1], {Real(0.5f), Real(0), Real(0)}, {Real(0), Real(0.25f), Real(0.5f)}};
+    const Ellipsoid<Real> ellipsoid{corners[2],
+                                    {{Real(0.5f), Real(0), Real(0)},
+                                     {Real(0), Real(0.25f), Real(0)},
+                                     {Real(0), Real(0.25f), Real(0.75f)}}};
 #include "all_techniques.h"
 }
 

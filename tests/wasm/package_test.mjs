@@ -60,7 +60,11 @@ assert.ok(Math.abs(areas([octagon])[0] - Math.SQRT2 * 2) < 1e-6);
 
 // Lights with numbers beyond the limits are empty for all techniques, and their neighbours are what they are.
 const lobe = [1, 0.1, 1, -0.1, 1];
-const shapes = { polygon: side, rectangle: side, line: [-1, 0, 1, 1, 0, 1], cylinder: [-1, 0, 1, 1, 0, 1, 0.1] };
+const shapes = {
+    polygon: side, rectangle: side, line: [-1, 0, 1, 1, 0, 1], cylinder: [-1, 0, 1, 1, 0, 1, 0.1],
+    sphere: [1, 0, 1, 0.5], disk: [1, 0, 1, 0, 0, 1, 0.5], ellipse: [1, 0, 1, 0.5, 0, 0, 0, 0.25, 0.5],
+    ellipsoid: [1, 0, 1, 0.5, 0, 0, 0, 0.25, 0, 0, 0.25, 0.75],
+};
 const rowOf = light => {
     const shape = shapes[light.replace("_on_lobe", "")];
     return { size: shape.length, row: light.endsWith("_on_lobe") ? [...shape, ...lobe] : shape };

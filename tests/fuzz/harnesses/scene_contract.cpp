@@ -2,6 +2,7 @@
 
 #include "files.h"
 #include "scene/import/importers.h"
+#include "scene/model/lights/light_kinds.h"
 #include "scene/model/vector_math.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ std::string_view violation_of_surfaces(const Scene& scene) {
         if (!is_index(scene.triangle_material[i], scene.materials.size()))
             return "a triangle has no such material";
         const std::int32_t light = scene.triangle_light[i];
-        if (light != -1 && !is_index(light, scene.lights.of<scene::PolygonLight>().size()))
+        if (light != -1 && !is_index(light, scene::surface_light_count(scene.lights)))
             return "a triangle has no such light";
         if (light != -1 && i >= world_triangle_count(scene)) return "a triangle of an object emits";
     }
