@@ -96,6 +96,21 @@ struct Line {
     }
 };
 
+/// Gives the vector from a column on, or 0 for lights that are out of range.
+template <class Real>
+auto vectors_in_range(const Reader<Real>& reader, int columns) noexcept {
+    return [&reader, in_range = are_in_range(reader, columns)](int column) {
+        return select(in_range, reader.vector(column), Vec3<Real>{});
+    };
+}
+
+/// A radius, or 0 for lights that are out of range. Negative ones are, too.
+template <class Real>
+Real radius_in_range(const Reader<Real>& reader, int columns, int column) noexcept {
+    const Real radius = reader.number(column);
+    return select(are_in_range(reader, columns) & (radius >= Real(0)), radius, Real(0));
+}
+
 /// The columns of the axis as a line, and the radius [m]. Negative radii are out of range, too.
 struct Cylinder {
     static constexpr int kRandom = 2;
@@ -103,9 +118,7 @@ struct Cylinder {
 
     template <class Real>
     static nusselt::Cylinder<Real> read(const Reader<Real>& reader, int columns) noexcept {
-        const Real radius = reader.number(6);
-        const auto usable = are_in_range(reader, columns) & (radius >= Real(0));
-        return {Line::read(reader, columns), select(usable, radius, Real(0))};
+        return {Line::read(reader, columns), radius_in_range(reader, columns, 6)};
     }
 };
 
@@ -115,8 +128,9 @@ struct Sphere {
     static constexpr bool takes(int columns) noexcept { return columns == 4; }
 
     template <class Real>
-    static nusselt::Sphere<Real> read(const Reader<Real>& reader, int) noexcept {
-        return {reader.vector(0), reader.number(3)};
+    static nusselt::Sphere<Real> read(const Reader<Real>& reader, int columns) noexcept {
+        const auto vector = vectors_in_range(reader, columns);
+        return {vector(0), radius_in_range(reader, columns, 3)};
     }
 };
 
@@ -126,8 +140,9 @@ struct Disk {
     static constexpr bool takes(int columns) noexcept { return columns == 7; }
 
     template <class Real>
-    static nusselt::Disk<Real> read(const Reader<Real>& reader, int) noexcept {
-        return {reader.vector(0), reader.vector(3), reader.number(6)};
+    static nusselt::Disk<Real> read(const Reader<Real>& reader, int columns) noexcept {
+        const auto vector = vectors_in_range(reader, columns);
+        return {vector(0), vector(3), radius_in_range(reader, columns, 6)};
     }
 };
 
@@ -137,8 +152,9 @@ struct Ellipse {
     static constexpr bool takes(int columns) noexcept { return columns == 9; }
 
     template <class Real>
-    static nusselt::Ellipse<Real> read(const Reader<Real>& reader, int) noexcept {
-        return {reader.vector(0), reader.vector(3), reader.vector(6)};
+    static nusselt::Ellipse<Real> read(const Reader<Real>& reader, int columns) noexcept {
+        const auto vector = vectors_in_range(reader, columns);
+        return {vector(0), vector(3), vector(6)};
     }
 };
 
@@ -148,8 +164,9 @@ struct Ellipsoid {
     static constexpr bool takes(int columns) noexcept { return columns == 12; }
 
     template <class Real>
-    static nusselt::Ellipsoid<Real> read(const Reader<Real>& reader, int) noexcept {
-        return {reader.vector(0), {reader.vector(3), reader.vector(6), reader.vector(9)}};
+    static nusselt::Ellipsoid<Real> read(const Reader<Real>& reader, int columns) noexcept {
+        const auto vector = vectors_in_range(reader, columns);
+        return {vector(0), {vector(3), vector(6), vector(9)}};
     }
 };
 

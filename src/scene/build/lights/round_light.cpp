@@ -89,6 +89,7 @@ BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words
     built.uvs = std::move(made.uvs);
     built.triangles = std::move(made.triangles);
     built.triangle_light.assign(built.triangles.size(), 0);
+    if (!shape.is_invisible) warn_of_surface(shape, light, placed.max_sides, built.warnings);
     if (shape.emission.profile != nullptr) {
         const std::shared_ptr<const Luminaire>& luminaire = shape.emission.profile->luminaire;
         if (const Darkness dark = luminaire == nullptr ? Darkness() : darkness(*luminaire)) {
@@ -99,10 +100,7 @@ BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words
     }
     light.radiance = radiance_of(without_profile(shape.emission), area(light), words.emission, shape.origin);
     built.lights.of<RoundLight>() = {light};
-    if (shape.is_invisible)
-        remove_surface(built);
-    else
-        warn_of_surface(shape, light, placed.max_sides, built.warnings);
+    if (shape.is_invisible) remove_surface(built);
     return built;
 }
 
