@@ -1,8 +1,8 @@
 #include "visibility/round_occluders.h"
 
 #include "scene/model/bounds.h"
+#include "scene/model/lights/round_axes.h"
 #include "scene/model/lights/round_shell.h"
-#include "scene/model/vector_math.h"
 #include "visibility/alpha.h"
 
 #include <cmath>
@@ -16,13 +16,10 @@ using scene::Double3;
 
 RoundOccluder make_occluder(const scene::RoundLight& light, double shell) {
     RoundOccluder result{};
-    const Double3 axis[] = {to_double(light.u), to_double(light.v),
-                            light.model == scene::RoundModel::ellipse
-                                ? normalized(cross(to_double(light.u), to_double(light.v)))
-                                : to_double(light.w)};
-    const double volume = dot(axis[0], cross(axis[1], axis[2]));
+    const Double3 u = to_double(light.u), v = to_double(light.v);
+    const scene::RoundAxes axes(u, v, is_flat(light) ? normalized(cross(u, v)) : to_double(light.w));
     for (std::size_t i = 0; i < 3; ++i) {
-        const Double3 row = (1 / volume) * cross(axis[(i + 1) % 3], axis[(i + 2) % 3]);
+        const Double3 row = axes.inverse_row(i);
         result.inverse[3 * i] = row.x;
         result.inverse[3 * i + 1] = row.y;
         result.inverse[3 * i + 2] = row.z;
@@ -30,7 +27,7 @@ RoundOccluder make_occluder(const scene::RoundLight& light, double shell) {
     const Double3 center = to_double(light.center);
     result.center = {center.x, center.y, center.z};
     result.shell = shell;
-    result.is_flat = light.model == scene::RoundModel::ellipse;
+    result.is_flat = is_flat(light);
     scene::Bounds bounds;
     scene::LightKind<scene::RoundLight>::add_to(light, bounds);
     // Boxes must contain the light in single precision, too.
@@ -129,14 +126,9 @@ RoundOccluders make_round_occluders(const scene::Scene& scene) {
     RoundOccluders result;
     const std::vector<scene::RoundLight>& lights = scene.lights.of<scene::RoundLight>();
     if (lights.empty()) return result;
-    const auto first = static_cast<std::int64_t>(scene.lights.of<scene::PolygonLight>().size());
-    const auto index_of = [&](std::size_t triangle) {
-        const std::int64_t index = scene.triangle_light[triangle] - first;
-        return index < static_cast<std::int64_t>(lights.size()) ? index : -1;
-    };
     std::vector<bool> has_surface(lights.size(), false), is_partial(lights.size(), false);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const std::int64_t index = index_of(i);
+        const std::int64_t index = round_light_of(scene, i);
         if (index < 0) continue;
         has_surface[static_cast<std::size_t>(index)] = true;
         if (presence_of(scene.materials[scene.triangle_material[i]]) != Presence::full)
@@ -146,7 +138,7 @@ RoundOccluders make_round_occluders(const scene::Scene& scene) {
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (has_surface[i] && !is_partial[i]) result.lights.push_back(make_occluder(lights[i], shells[i]));
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const std::int64_t index = index_of(i);
+        const std::int64_t index = round_light_of(scene, i);
         if (index >= 0 && !is_partial[static_cast<std::size_t>(index)])
             result.triangles.push_back(static_cast<std::uint32_t>(i));
     }

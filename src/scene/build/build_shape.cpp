@@ -15,17 +15,19 @@ namespace nusselt::scene {
 
 namespace {
 
-/// How shapes become lights of one kind that are no surfaces.
+/// How shapes become lights of one kind other than polygons.
 struct LightBuilder {
     bool (*takes)(const Geometry& geometry, const Emission& emission, const Transform& world_from_object);
     BuiltShape (*build)(const PlacedShape& placed, const FormatWords& words);
+    bool is_surface; ///< whether rays meet such lights
 };
 
 /// Which shapes become which kind of light is decided here: the first row that takes a shape builds it. What no row takes
-/// becomes a surface, whose lights are round or polygons if it emits.
-constexpr LightBuilder kLightBuilders[] = {{becomes_tube, build_tube}};
+/// becomes a surface, whose lights are polygons if it emits.
+constexpr LightBuilder kLightBuilders[] = {{becomes_tube, build_tube, false},
+                                           {becomes_round_light, build_round_light, true}};
 
-/// The row that takes a shape, null if it becomes a surface.
+/// The row that takes a shape; null if there is none.
 const LightBuilder* find_light_builder(const Geometry& geometry, const Emission& emission,
                                        const Transform& world_from_object) {
     for (const LightBuilder& builder : kLightBuilders)
@@ -117,7 +119,8 @@ BuiltShape build_surface(const PlacedShape& placed, SceneBudget& budget, const F
 } // namespace
 
 bool becomes_surface(const Geometry& geometry, const Emission& emission, const Transform& world_from_object) {
-    return find_light_builder(geometry, emission, world_from_object) == nullptr;
+    const LightBuilder* const light = find_light_builder(geometry, emission, world_from_object);
+    return light == nullptr || light->is_surface;
 }
 
 std::string subject_of(const ShapeDescription& shape) { return "shape \"" + std::string(shape.kind) + '"'; }
@@ -127,10 +130,8 @@ BuiltShape build_shape(const PlacedShape& placed, SceneBudget& budget, const For
     const ShapeDescription& shape = *placed.shape;
     const LightBuilder* const light =
         find_light_builder(shape.geometry, shape.emission, placed.world_from_object);
-    BuiltShape built = light != nullptr ? light->build(placed, words)
-                       : becomes_round_light(shape.geometry, shape.emission, placed.world_from_object)
-                           ? build_round_light(placed, words)
-                           : build_surface(placed, budget, words, images);
+    BuiltShape built =
+        light != nullptr ? light->build(placed, words) : build_surface(placed, budget, words, images);
     built.warnings.append(shape.warnings);
     built.triangle_material.assign(built.triangles.size(), static_cast<std::uint32_t>(shape.material));
     if (!built.lights.empty()) built.emitters = {{shape.kind, shape.origin}};

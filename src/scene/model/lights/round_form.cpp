@@ -1,16 +1,13 @@
 #include "scene/model/lights/round_form.h"
 
+#include "scene/model/lights/round_axes.h"
 #include "scene/model/lights/round_shell.h"
-#include "scene/model/scene.h"
-#include "scene/model/vector_math.h"
 
 #include <cmath>
 
 namespace nusselt::scene {
 
 namespace {
-
-bool is_flat(const RoundLight& light) { return light.model == RoundModel::ellipse; }
 
 /// Whether the semi-diameters are perpendicular and equally long, up to the rounding of transforms.
 bool is_circular(const RoundLight& light) {
@@ -27,7 +24,7 @@ RoundForm make_form(const RoundLight& light) {
     const bool is_round = is_circular(light);
     form.shape = is_flat(light) ? (is_round ? RoundShape::disk : RoundShape::ellipse)
                                 : (is_round ? RoundShape::sphere : RoundShape::ellipsoid);
-    const Double3 axis[] = {to_double(light.u), to_double(light.v), to_double(light.w)};
+    const RoundAxes axes(light);
     form.center = light.center;
     form.axis[0] = light.u;
     form.axis[1] = light.v;
@@ -36,11 +33,9 @@ RoundForm make_form(const RoundLight& light) {
     form.radiance = light.radiance;
     form.emits_outwards = light.two_sided || light.model != RoundModel::hollow;
     form.emits_inwards = light.two_sided || light.model == RoundModel::hollow;
-    form.normal = to_float(normalized(cross(axis[0], axis[1])));
+    form.normal = to_float(normalized(axes.cofactor[2]));
     if (is_flat(light)) return form;
-    const double volume = dot(axis[0], cross(axis[1], axis[2]));
-    for (std::size_t i = 0; i < 3; ++i)
-        form.inverse[i] = to_float((1 / volume) * cross(axis[(i + 1) % 3], axis[(i + 2) % 3]));
+    for (std::size_t i = 0; i < 3; ++i) form.inverse[i] = to_float(axes.inverse_row(i));
     return form;
 }
 

@@ -4,6 +4,7 @@
 #include "scene/model/content_hash.h"
 #include "scene/model/lights/light_geometry.h"
 #include "scene/model/lights/light_text.h"
+#include "scene/model/lights/round_axes.h"
 #include "scene/model/number_text.h"
 #include "scene/model/transform.h"
 
@@ -18,31 +19,6 @@ namespace nusselt::scene {
 namespace {
 
 using Kind = LightKind<RoundLight>;
-
-/// Semi-diameters in double precision, and the cofactors of their matrix.
-struct Axes {
-    explicit Axes(const RoundLight& light)
-        : axis{to_double(light.u), to_double(light.v), to_double(light.w)} {
-        for (std::size_t i = 0; i < 3; ++i) cofactor[i] = cross(axis[(i + 1) % 3], axis[(i + 2) % 3]);
-        volume = dot(axis[0], cofactor[0]);
-    }
-
-    /// The image of a point in the coordinates of the unit sphere.
-    Double3 point(const Double3& p) const { return p.x * axis[0] + p.y * axis[1] + p.z * axis[2]; }
-    /// The outward normal there, not of unit length.
-    Double3 normal(const Double3& p) const {
-        return (volume < 0 ? -1.0 : 1.0) * (p.x * cofactor[0] + p.y * cofactor[1] + p.z * cofactor[2]);
-    }
-    /// From a vector to the coordinates of the unit sphere; for ellipsoids.
-    Double3 unit(const Double3& p) const {
-        return {dot(cofactor[0], p) / volume, dot(cofactor[1], p) / volume, dot(cofactor[2], p) / volume};
-    }
-
-    std::array<Double3, 3> axis, cofactor;
-    double volume;
-};
-
-bool is_flat(const RoundLight& light) { return light.model == RoundModel::ellipse; }
 
 /// Carlson's symmetric integrals R_F and R_D by duplication: B. C. Carlson 1995, Numerical computation of real or complex
 /// elliptic integrals, doi:10.1007/BF02198293, equations 2.1 and 2.5 to 2.7 in the limit of equal arguments.
@@ -86,7 +62,7 @@ bool are_alike(double a, double b) { return std::fabs(a - b) <= 1e-4 * a; }
 
 std::array<double, 3> semi_axes(const RoundLight& light) {
     // The eigenvalues of the Gram matrix are their squares. Rotations of pairs of columns make it diagonal.
-    std::array<Double3, 3> column = Axes(light).axis;
+    std::array<Double3, 3> column = RoundAxes(light).axis;
     for (int sweep = 0; sweep < 12; ++sweep) {
         for (const auto& [i, k] : {std::pair{0u, 1u}, {0u, 2u}, {1u, 2u}}) {
             const double both = dot(column[i], column[k]);
@@ -103,7 +79,7 @@ std::array<double, 3> semi_axes(const RoundLight& light) {
 }
 
 double area(const RoundLight& light) {
-    if (is_flat(light)) return std::numbers::pi * length(Axes(light).cofactor[2]);
+    if (is_flat(light)) return std::numbers::pi * length(RoundAxes(light).cofactor[2]);
     return ellipsoid_area(semi_axes(light));
 }
 
@@ -147,7 +123,7 @@ private:
     int columns_, rows_;
 };
 
-LightSurface ellipse_surface(const RoundLight& light, const Axes& axes, int sides) {
+LightSurface ellipse_surface(const RoundLight& light, const RoundAxes& axes, int sides) {
     LightSurface result;
     const Double3 center = to_double(light.center);
     const Float3 normal = to_float(normalized(axes.cofactor[2]));
@@ -162,7 +138,7 @@ LightSurface ellipse_surface(const RoundLight& light, const Axes& axes, int side
     return result;
 }
 
-LightSurface ellipsoid_surface(const RoundLight& light, const Axes& axes, int sides) {
+LightSurface ellipsoid_surface(const RoundLight& light, const RoundAxes& axes, int sides) {
     LightSurface result;
     const Double3 center = to_double(light.center);
     const bool is_inward = light.model == RoundModel::hollow && !light.two_sided;
@@ -185,13 +161,13 @@ LightSurface ellipsoid_surface(const RoundLight& light, const Axes& axes, int si
 } // namespace
 
 LightSurface surface(const RoundLight& light, int sides) {
-    const Axes axes(light);
+    const RoundAxes axes(light);
     return is_flat(light) ? ellipse_surface(light, axes, kSidesOfEllipse * sides)
                           : ellipsoid_surface(light, axes, sides);
 }
 
 void Kind::add_to(const RoundLight& light, Bounds& bounds) {
-    const Axes axes(light);
+    const RoundAxes axes(light);
     const auto extent = [&](double Double3::*coordinate) {
         return std::hypot(axes.axis[0].*coordinate, axes.axis[1].*coordinate, axes.axis[2].*coordinate);
     };
@@ -252,7 +228,7 @@ void Kind::add_surface(const RoundLight& light, LightSurface& result) {
 
 double Kind::hit(const RoundLight& light, const SightRay& ray) {
     constexpr double kMiss = std::numeric_limits<double>::infinity();
-    const Axes axes(light);
+    const RoundAxes axes(light);
     const Double3 between = ray.origin - to_double(light.center);
     if (is_flat(light)) {
         const Double3& normal = axes.cofactor[2];
