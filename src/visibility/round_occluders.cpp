@@ -1,8 +1,8 @@
 #include "visibility/round_occluders.h"
 
 #include "scene/model/bounds.h"
-#include "scene/model/lights/round_axes.h"
-#include "scene/model/lights/round_shell.h"
+#include "scene/model/lights/round/round_axes.h"
+#include "scene/model/lights/round/round_shell.h"
 #include "visibility/alpha.h"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "rich_scene.h"
 #include "scenes.h"
 
-#include "scene/model/lights/round_form.h"
+#include "scene/model/lights/round/round_form.h"
 
 #include <vector>
 

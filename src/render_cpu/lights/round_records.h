@@ -2,7 +2,7 @@
 /// Round lights in the form that kernels read: plain data, see kernel.h.
 
 #include "render_cpu/kernel.h"
-#include "scene/model/lights/round_form.h"
+#include "scene/model/lights/round/round_form.h"
 
 #include <memory>
 

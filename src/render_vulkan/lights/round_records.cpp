@@ -2,7 +2,7 @@
 
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
-#include "scene/model/lights/round_form.h"
+#include "scene/model/lights/round/round_form.h"
 
 namespace nusselt::render_vulkan {
 

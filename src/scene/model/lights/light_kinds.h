@@ -7,7 +7,7 @@
 #include "scene/model/lights/line_light.h"
 #include "scene/model/lights/point_light.h"
 #include "scene/model/lights/polygon_light.h"
-#include "scene/model/lights/round_light.h"
+#include "scene/model/lights/round/round_light.h"
 
 #include <cstddef>
 

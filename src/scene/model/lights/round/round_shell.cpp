@@ -1,6 +1,6 @@
-#include "scene/model/lights/round_shell.h"
+#include "scene/model/lights/round/round_shell.h"
 
-#include "scene/model/lights/round_axes.h"
+#include "scene/model/lights/round/round_axes.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "scene/model/lights/round_form.h"
+#include "scene/model/lights/round/round_form.h"
 
-#include "scene/model/lights/round_axes.h"
-#include "scene/model/lights/round_shell.h"
+#include "scene/model/lights/round/round_axes.h"
+#include "scene/model/lights/round/round_shell.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "scene/model/lights/round_light.h"
+#include "scene/model/lights/round/round_light.h"
 
 #include "scene/model/bounds.h"
 #include "scene/model/content_hash.h"
 #include "scene/model/lights/light_geometry.h"
 #include "scene/model/lights/light_text.h"
-#include "scene/model/lights/round_axes.h"
+#include "scene/model/lights/round/round_axes.h"
 #include "scene/model/number_text.h"
 #include "scene/model/transform.h"
 
