@@ -66,6 +66,20 @@ std::size_t add_lines(Columns& columns, const TimedLights& lights) {
     return 7;
 }
 
+/// \copydoc add_polygons
+std::size_t add_round(Columns& columns, const TimedLights& lights) {
+    for (int i = 0; i < kTimedLights; ++i) {
+        const Vec3<float> a = position(lights, i, 0), b = position(lights, i, 1), c = position(lights, i, 2),
+                          d = position(lights, i, 3);
+        const Vec3<float> u = 0.5f * (a - c), v = 0.5f * (b - d);
+        add(columns, 0, i, 0.5f * (a + c));
+        add(columns, 3, i, u);
+        add(columns, 6, i, v);
+        add(columns, 9, i, (1 / length(u)) * cross(u, v));
+    }
+    return 12;
+}
+
 void add_column(Columns& columns, std::size_t index, const float (&values)[kTimedLights]) {
     std::copy(std::begin(values), std::end(values),
               columns.begin() + static_cast<std::ptrdiff_t>(index * kTimedLights));
@@ -74,8 +88,9 @@ void add_column(Columns& columns, std::size_t index, const float (&values)[kTime
 /// The columns in the layout that shaders/bench reads.
 Columns columns_of(const TimedConfiguration& c, const TimedLights& lights) {
     Columns columns(kMostColumns * kTimedLights);
-    std::size_t count =
-        is_polygon(c.kind) ? add_polygons(columns, lights, c.vertex_count) : add_lines(columns, lights);
+    std::size_t count = is_polygon(c.kind) ? add_polygons(columns, lights, c.vertex_count)
+                        : is_round(c.kind) ? add_round(columns, lights)
+                                           : add_lines(columns, lights);
     if (is_cylinder(c.kind)) add_column(columns, count++, lights.radius);
     if (has_lobe(c.kind))
         for (const auto& values : lights.lobe) add_column(columns, count++, values);

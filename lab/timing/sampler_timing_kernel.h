@@ -41,6 +41,11 @@ constexpr bool is_polygon(LightKind kind) {
 constexpr bool is_cylinder(LightKind kind) {
     return kind == LightKind::cylinder || kind == LightKind::cylinder_on_lobe;
 }
+
+constexpr bool is_round(LightKind kind) {
+    return kind == LightKind::round || kind == LightKind::round_on_lobe;
+}
+
 constexpr bool has_lobe(LightKind kind) {
     return kind == LightKind::polygon_on_lobe || kind == LightKind::line_on_lobe ||
            kind == LightKind::cylinder_on_lobe || kind == LightKind::round_on_lobe;

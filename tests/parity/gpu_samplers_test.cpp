@@ -86,7 +86,7 @@ TEST_F(GpuSamplers, HaveARowForEachTechniqueAndClassOfLights) {
     expect_rows(TestedBy<GpuTimingSuite, RelatedPolygonKinds, RectangleKinds>(), 3,
                 "three classes with 4 vertices");
     expect_rows(TestedBy<GpuTimingSuite, PolygonOnLobeKinds<4>, LineKinds, LineOnLobeKinds, CylinderKinds,
-                         CylinderOnLobeKinds>(),
+                         CylinderOnLobeKinds, RoundKinds, RoundOnLobeKinds>(),
                 2, "two classes");
 }
 

@@ -1,5 +1,5 @@
 // A technique of practically no cost; all that is loaded of the lobe counts elsewhere.
-#include "bench/baseline_polygon.glsl"
+#include "bench/baselines/polygon.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
 BaselinePolygon baseline_polygon_on_lobe_prepare(const ConvexPolygon light, const Ltc lobe) {

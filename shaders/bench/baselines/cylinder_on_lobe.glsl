@@ -1,5 +1,5 @@
 // A technique of practically no cost; all that is loaded of the lobe counts elsewhere.
-#include "bench/baseline_cylinder.glsl"
+#include "bench/baselines/cylinder.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
 BaselineCylinder baseline_cylinder_on_lobe_prepare(const Cylinder light, const Ltc lobe) {

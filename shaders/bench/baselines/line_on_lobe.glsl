@@ -1,5 +1,5 @@
 // A technique of practically no cost; all that is loaded of the lobe counts elsewhere.
-#include "bench/baseline_line.glsl"
+#include "bench/baselines/line.glsl"
 #include "nusselt/ltc/ltc.glsl"
 
 BaselineLine baseline_line_on_lobe_prepare(const LineSegment light, const Ltc lobe) {
