@@ -10,7 +10,7 @@ import numpy as np
 import nusselt
 
 # %% The room in the evening: a tenth of its own light
-room = nusselt.load(SCENES / "room.pbrt")  # from run.py: the folder scenes of the repository
+room = nusselt.load("scenes/room.pbrt")  # from the folder of the repository
 room.edit([{"light": "*", "scale_radiance": 0.1}])
 room.resize(320, 180)
 (x0, y0, z0), (x1, y1, z1) = room.bounds

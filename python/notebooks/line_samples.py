@@ -9,8 +9,8 @@ import numpy as np
 import nusselt
 
 # %% The scene, in a size for a glance
-room = nusselt.load(SCENES / "room.pbrt")  # from run.py: the folder scenes of the repository
-room.apply_rig(SCENES / "rigs/room-panel.json")
+room = nusselt.load("scenes/room.pbrt")  # from the folder of the repository
+room.apply_rig("scenes/rigs/room-panel.json")
 room.resize(96, 54)
 
 # %% Renderings

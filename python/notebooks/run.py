@@ -3,20 +3,25 @@
 
 Usage: python/notebooks/run.py [--limit SECONDS] FOLDER [NAME...]
        python/notebooks/run.py --check FOLDER    fails if the pages in a folder have other code or texts than the notebooks
-A cell begins with `# %%` and a title. The first string of the file is the introduction. Code finds the scenes of the repository
-under SCENES. The limit is one for the CPU time of all threads and notebooks, which other programs do not change; on an idle
-machine, they take less than that.
+A cell begins with `# %%` and a title. The first string of the file is the introduction. Code runs in the folder of the repository,
+where it finds scenes. The limit is one for the CPU time of all threads and notebooks, which other programs do not change; on an
+idle machine, they take less than that.
 """
 import argparse
 import ast
 import contextlib
 import io
+import os
 import pathlib
 import re
 import sys
 import time
 
-import matplotlib
+try:
+    import matplotlib
+    import nusselt
+except ModuleNotFoundError as error:
+    sys.exit(f"{sys.executable} has no {error.name}; docs/python.md says what notebooks need")
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
@@ -63,7 +68,7 @@ def run(path, folder):
     text = path.read_text()
     introduction = ast.get_docstring(ast.parse(text))
     page = [introduction, ""]
-    names = {"__name__": "__main__", "SCENES": HERE.parents[1] / "scenes"}
+    names = {"__name__": "__main__"}
     plots = 0
     for title, code in cells(text):
         if title is None:
@@ -92,11 +97,15 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("names", nargs="*", metavar="name")
     arguments = parser.parse_args()
-    folder = arguments.folder
+    folder = arguments.folder.resolve()
     if arguments.check:
         return check(folder)
+    unknown = [name for name in arguments.names if name not in NAMES]
+    if unknown:
+        parser.error(f"no notebook has the name {unknown[0]}; use {', '.join(NAMES)}")
     folder.mkdir(parents=True, exist_ok=True)
     plt.show = lambda: None
+    os.chdir(HERE.parents[1])
     for name in arguments.names or NAMES:
         begin = time.process_time()
         (folder / f"{name}.md").write_text(run(HERE / f"{name}.py", folder))

@@ -4,9 +4,9 @@
     light = nusselt.PolygonProjectedSolidAngle([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
     wi, pdf, p = light.sample(numpy.random.random((1000, 2)))
 
-    scene = nusselt.load("room.pbrt")
-    scene.edit([{"light": "lamp", "scale_radiance": 2}])
-    nusselt.render(scene, samples=16).save("room.exr")
+    scene = nusselt.load("scene.pbrt")                  # pbrt text, version 3 or 4
+    scene.edit([{"light": "*", "scale_radiance": 2}])   # all lights
+    nusselt.render(scene, samples=16).save("image.exr")
 
 Lengths are in metres, angles in radians, radiance in W/(sr m^2). Directions point away from the surface; shading space has
 the shading point as its origin and the normal as +z.
