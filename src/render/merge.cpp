@@ -107,7 +107,7 @@ void check_content(const image::LayeredImage& image, const std::filesystem::path
     try {
         check_content_hash(image);
     } catch (const std::runtime_error& error) {
-        refuse(path, std::string(error.what()) + " (in a job: delete this file, then submit it again)");
+        refuse(path, error.what());
     }
 }
 
@@ -143,16 +143,19 @@ std::string layers_text(const image::LayeredImage& image) {
 
 void check_same_metadata(const image::Metadata& first, const image::Metadata& other,
                          const std::filesystem::path& path) {
+    std::set<std::string> keys; // all that differ: some settings change the defaults of others
     const auto compare = [&](const image::Metadata& a, const image::Metadata& b) {
         for (const auto& [key, value] : a) {
-            if (kFreeKeys.count(key) != 0) continue;
             const auto found = b.find(key);
-            if (found == b.end() || found->second != value)
-                refuse(path, "it belongs to another rendering than the first image: '" + key + "' differs");
+            if (kFreeKeys.count(key) == 0 && (found == b.end() || found->second != value)) keys.insert(key);
         }
     };
     compare(first, other);
     compare(other, first);
+    if (keys.empty()) return;
+    refuse(path, "it belongs to another rendering than the first image: " +
+                     base::listing({keys.begin(), keys.end()}, "and") +
+                     (keys.size() == 1 ? " differs" : " differ"));
 }
 
 /// The layer in double precision, so that the floats of a single image survive.
