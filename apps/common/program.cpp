@@ -168,7 +168,12 @@ std::string usage_problem(const CLI::App& app, const CLI::Error& error) {
     if (extras.empty() || (!has_too_much && commands.empty())) return problem_of(error);
     const auto option = std::find_if(extras.begin(), extras.end(),
                                      [](const std::string& word) { return word.starts_with("-"); });
-    if (option != extras.end()) return unknown("option", *option, option_names(command));
+    if (option != extras.end()) {
+        // Of commands that submit others.
+        const bool takes_others = command.get_option_no_throw("OPTIONS") != nullptr;
+        return unknown("option", *option, option_names(command)) +
+               (takes_others ? "; options of the tasks come behind --" : "");
+    }
     const std::string& word = extras.front();
     return commands.empty() ? "unexpected '" + word + "'" : unknown("command", word, commands);
 }

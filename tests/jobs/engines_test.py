@@ -70,6 +70,29 @@ class EnginesTest(unittest.TestCase):
         for task in manifest["tasks"]:
             self.assertIn("--isa", task["command"])
 
+    def test_a_part_that_is_not_what_it_was_is_named_with_the_remedy(self):
+        outcome = self.submit("--run")
+        self.expect_success(outcome)
+        self.assertIn("4 of 4 tasks are left to do; they write to ", outcome.stderr)
+        (self.folder / "image.exr").unlink()
+        part = self.folder / "image.job/results/2.exr"
+        whole = part.read_bytes()
+        foreign = [NUSSELT, "render", SCENE, *OPTIONS, "-q", "--technique", "area", "--part", "2/4", "-o", part]
+        for damage, text in ((lambda: part.write_bytes(whole[:-1000]), "2.exr"),
+                             (lambda: part.write_bytes((part.parent / "1.exr").read_bytes()), "which would count twice"),
+                             (lambda: self.expect_success(self.run_in(*foreign)),
+                              "mis, strategies, technique and visibility_estimate differ")):
+            damage()
+            outcome = self.submit("--run", "-q")
+            self.expect_error(outcome, text)
+            self.assertIn("; to do a task again, delete its file in results, then run the same command", outcome.stderr)
+            self.assertFalse((self.folder / "image.exr").exists())
+        part.unlink()
+        outcome = self.submit("--run")
+        self.expect_success(outcome)
+        self.assertIn("1 of 4 tasks are left to do; ", outcome.stderr)
+        self.assertEqual(part.read_bytes()[-1000:], whole[-1000:])
+
     def test_a_job_is_written_without_being_started(self):
         outcome = self.submit()
         self.expect_success(outcome)
@@ -169,6 +192,7 @@ class EnginesTest(unittest.TestCase):
                 (("--job", "{}"), [], 1, "has {, which GNU parallel replaces"),
                 ((), ["-o", "b.exr"], 2, "use the option -o of submit"),
                 ((), ["-qo", "b.exr"], 2, "use the option -o of submit"), ((), ["--json=a"], 2, "--json"),
+                (("--spp", "2"), [], 2, "unknown option '--spp'; options of the tasks come behind --; see"),
                 ((), ["--part", "1/2"], 2, "--parts"), ((), ["--spp", "x"], 2, "--spp"),
                 ((), ["--threads", "2"], 2, "--threads"), ((), ["--backend", "vulkan"], 2, "--backend"),
                 (("--engine", "lsf"), [], 2, "--engine"),
@@ -186,7 +210,12 @@ class EnginesTest(unittest.TestCase):
         self.expect_success(self.submit())
         outcome = self.submit(parts=5)
         self.assertEqual(outcome.returncode, 1)
-        self.assertIn("has another job; delete it", outcome.stderr)
+        self.assertIn("has another job (4 tasks in place of 5); delete it", outcome.stderr)
+        for outcome, difference in (
+                (self.submit(options=[*OPTIONS[:-1], "8"]), "'--spp 4' in place of '--spp 8'"),
+                (self.submit("--threads", 2), "'--threads 1' in place of '--threads 2'"),
+                (self.submit(engine="slurm"), "'parallel' in place of 'slurm'")):
+            self.expect_error(outcome, f"has another job ({difference}); delete it")
         # A folder that has nothing of value may be left by a command that was stopped.
         shutil.rmtree(self.folder / "image.job")
         (self.folder / "image.job/results").mkdir(parents=True)

@@ -2,6 +2,7 @@
 
 #include "apps/common/interrupt.h"
 #include "base/stopwatch.h"
+#include "base/words.h"
 
 #include <fmt/format.h>
 
@@ -120,13 +121,16 @@ std::string reason_of(int exit_code, const Job& job, const std::filesystem::path
                         : text;
 }
 
-double done_fraction(const Job& job) {
-    std::error_code error;
-    std::size_t done = 0;
-    for (std::filesystem::directory_iterator entry(job.folder / "done", error), end; !error && entry != end;
-         entry.increment(error))
-        ++done;
-    return std::min(1.0, static_cast<double>(done) / static_cast<double>(job.tasks.size()));
+/// As missing.sh counts them.
+std::size_t tasks_left(const Job& job) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < job.tasks.size(); ++i) {
+        std::error_code error;
+        const bool is_done = std::filesystem::exists(task_file(job.folder, "done", i + 1, ""), error) &&
+                             std::filesystem::file_size(job.tasks[i].output, error) > 0 && !error;
+        left += is_done ? 0 : 1;
+    }
+    return left;
 }
 
 enum class Presence { there, gone, unknown };
@@ -191,6 +195,15 @@ int report(const Result& result) {
 
 } // namespace
 
+double done_fraction(const Job& job) {
+    std::error_code error;
+    std::size_t done = 0;
+    for (std::filesystem::directory_iterator entry(job.folder / "done", error), end; !error && entry != end;
+         entry.increment(error))
+        ++done;
+    return std::min(1.0, static_cast<double>(done) / static_cast<double>(job.tasks.size()));
+}
+
 int run_job(const Job& job, const std::function<void(double)>& progress,
             const std::function<void(const std::string&)>& notify) {
     const InterruptGuard guard("\nstopping; a second Ctrl-C ends the program at once\n");
@@ -204,6 +217,8 @@ int run_job(const Job& job, const std::function<void(double)>& progress,
     } else {
         std::error_code ignored;
         std::filesystem::remove(job.folder / "result.txt", ignored);
+        notify(fmt::format("{} of {} tasks are left to do; they write to {}", tasks_left(job),
+                           job.tasks.size(), base::shell_word((job.folder / "logs").string())));
         starter.emplace(job.folder / "start.sh", start_log);
     }
     Inquiry inquiry(job, notify);

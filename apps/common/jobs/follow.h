@@ -8,6 +8,9 @@
 
 namespace nusselt::app {
 
+/// The share of tasks that are done, in [0, 1].
+double done_fraction(const Job& job);
+
 /// Starts a job from write_job(), unless its engine has it already, and waits for the end. An engine that does not
 /// answer for a while is waited for: what is done is seen in the job's folder.
 /// \param progress receives the share of tasks that are done, now and then

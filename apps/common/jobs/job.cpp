@@ -107,6 +107,44 @@ std::vector<std::string> changed_inputs(const std::string& text, const nlohmann:
     return changed;
 }
 
+/// Where two commands part, such as "--spp 4 in place of --spp 8"; empty if they do not.
+std::string difference(const Words& before, const Words& now) {
+    const auto [a, b] = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
+    if (a == before.end() && b == now.end()) return "";
+    // The value of an option says little without it.
+    const auto index = a - before.begin();
+    const std::string option = index > 0 && before[static_cast<std::size_t>(index - 1)].starts_with("--")
+                                   ? before[static_cast<std::size_t>(index - 1)] + " "
+                                   : "";
+    const auto text = [&](const Words& words, Words::const_iterator word) {
+        return word == words.end() ? std::string("nothing") : "'" + option + *word + "'";
+    };
+    return text(before, a) + " in place of " + text(now, b);
+}
+
+/// What another job has in place of this one's, as far as its manifest says so: the first of all differences.
+std::string difference(const std::string& text, const nlohmann::ordered_json& manifest) {
+    const nlohmann::ordered_json other = nlohmann::ordered_json::parse(text, nullptr, false);
+    try {
+        const auto& tasks = other.at("tasks");
+        const auto& now = manifest.at("tasks");
+        if (tasks.size() != now.size())
+            return std::to_string(tasks.size()) + " tasks in place of " + std::to_string(now.size());
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            const std::string found =
+                difference(tasks.at(i).at("command").get<Words>(), now.at(i).at("command").get<Words>());
+            if (!found.empty()) return found;
+        }
+        for (const char* key : {"engine", "working_folder"})
+            if (other.at(key) != manifest.at(key))
+                return "'" + other.at(key).get<std::string>() + "' in place of '" +
+                       manifest.at(key).get<std::string>() + "'";
+    } catch (const nlohmann::ordered_json::exception&) {
+        // Not written by us, or by another version.
+    }
+    return "";
+}
+
 /// Whether the folder has the same job already. \throws std::runtime_error if it has something else
 bool has_job(const std::filesystem::path& folder, const nlohmann::ordered_json& manifest) {
     std::error_code ignored;
@@ -120,8 +158,10 @@ bool has_job(const std::filesystem::path& folder, const nlohmann::ordered_json& 
         throw std::runtime_error("since the job in '" + folder.string() + "' was written, " +
                                  base::listing(changed, "and") + (changed.size() == 1 ? " has" : " have") +
                                  " changed" + remedy);
-    throw std::runtime_error("'" + folder.string() + "' has " + (stream ? "another job" : "other files") +
-                             remedy);
+    if (!stream) throw std::runtime_error("'" + folder.string() + "' has other files" + remedy);
+    const std::string found = difference(text, manifest);
+    throw std::runtime_error("'" + folder.string() + "' has another job" +
+                             (found.empty() ? "" : " (" + found + ")") + remedy);
 }
 
 } // namespace

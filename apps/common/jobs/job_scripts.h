@@ -84,7 +84,10 @@ while IFS= read -r command; do
     cat @folder@/logs/gather-command.txt >>@folder@/logs/gather.txt
     if [ $code -ne 0 ]; then
         [ $code -le 128 ] || printf '%s\n' "signal $((code - 128)) ended: $command" >>@folder@/logs/gather-command.txt
-        cd @folder@ && report $code "$(cat logs/gather-command.txt)"
+        remedy=
+        ! grep -qF @folder@/results/ @folder@/logs/gather-command.txt ||
+            remedy='; to do a task again, delete its file in results, then run the same command again'
+        cd @folder@ && report $code "$(cat logs/gather-command.txt)$remedy"
     fi
 done <@folder@/gather.txt
 cd @folder@ && report 0 "all @tasks@ tasks are done"

@@ -19,7 +19,7 @@ namespace nusselt::app {
 namespace {
 
 int run_and_report(const Job& job, const SubmitOptions& options) {
-    Progress progress;
+    Progress progress(done_fraction(job));
     const int code = run_job(
         job,
         [&](double fraction) {
