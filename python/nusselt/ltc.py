@@ -19,6 +19,8 @@ class LtcTable:
     """A table of lobes over perceptual roughness, inclination of wo and reflectance at normal incidence."""
 
     def __init__(self, table: _core.LtcTable) -> None:
+        if not isinstance(table, _core.LtcTable):
+            raise TypeError(f"use LtcTable.frostbite(), LtcTable.phong() or LtcTable.load(file), not LtcTable({table!r})")
         self._table = table
 
     @staticmethod

@@ -43,7 +43,7 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
     `--spp` is `samples`, `--pixel-center` is pixel_position="center". None stands for the default.
 
     samples: per pixel, light and technique; default: what the scene asks for, or 1.
-    layers: names, or "all"; the result has them beside the picture "".
+    layers: names in a list or between commas, or "all"; the result has them beside the picture "".
     part: (number, count), to render the tiles of one part, in the whole image, which is black elsewhere; images.merge()
         joins parts.
     resolution: (width, height) in pixels in place of that of the scene.
@@ -63,6 +63,8 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
                 "layers": layers, "part": part}
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be a Scene, which nusselt.load() makes of a file, not {scene!r}")
+    if isinstance(layers, str):
+        layers = layers.split(",")
     if resolution is not None:
         try:
             width, height = resolution

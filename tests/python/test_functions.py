@@ -98,6 +98,8 @@ def test_a_file_that_is_no_table_is_an_error(tmp_path):
     path.write_bytes(b"no table")
     with pytest.raises(RuntimeError, match="table.bin"):
         nusselt.LtcTable.load(path)
+    with pytest.raises(TypeError, match=r"use LtcTable.frostbite\(\), LtcTable.phong\(\) or LtcTable.load"):
+        nusselt.LtcTable(str(path))
 
 
 def test_frames_turn_the_normal_to_z(rng):

@@ -45,9 +45,9 @@ def assert_same(image, other):
     (["--spp", "2", "--technique", "solid_angle", "--strategies", "diffuse+ggx", "--mis", "power", "--sampler",
       "blue_noise", "--seed", "5", "--camera-rays", "1", "--layers", "albedo,diffuse"],
      {"samples": 2, "technique": "solid_angle", "strategies": "diffuse+ggx", "mis": "power", "sampler": "blue_noise",
-      "seed": 5, "camera_rays": 1, "layers": ["albedo", "diffuse"]}),
-    (["--spp", "2", "--brdf", "lambert", "--pixel-center", "--part", "2/3"],
-     {"samples": 2, "brdf": "lambert", "pixel_position": "center", "part": (2, 3)}),
+      "seed": 5, "camera_rays": 1, "layers": "albedo,diffuse"}),
+    (["--spp", "2", "--brdf", "lambert", "--pixel-center", "--part", "2/3", "--layers", "normal,depth"],
+     {"samples": 2, "brdf": "lambert", "pixel_position": "center", "part": (2, 3), "layers": ["normal", "depth"]}),
     (["--spp", "2", "--visibility-estimate", "0.25", "--emission-sampling", "measure", "--isa", "sse42"],
      {"samples": 2, "visibility_estimate": 0.25, "emission_sampling": "measure", "isa": "sse42"})])
 def test_the_room_has_the_bits_of_the_command(options, settings, room, scenes, program, tmp_path):
@@ -131,6 +131,7 @@ def test_the_command_has_the_settings_of_python(program):
     ({"visibility_estimate": "high"}, "visibility_estimate must be a number, not 'high'"),
     ({"lines": 4}, "lines needs light_samples=\"lines\""),
     ({"layers": "depths"}, "layers: unknown setting 'depths'"),
+    ({"layers": "all,depths"}, "layers: unknown setting 'depths'"),
     ({"layers": ["all", "depths"]}, "layers: unknown setting 'depths'"),
     ({"resolution": 64}, r"resolution must be the pair \(width, height\), not 64"),
     ({"isa": "mmx"}, "isa: unknown instruction set 'mmx'"),
