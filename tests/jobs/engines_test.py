@@ -143,6 +143,20 @@ class EnginesTest(unittest.TestCase):
         self.expect_success(self.run_in(NUSSELT, "submit", SCENE, "--parts", 2, "--engine", "parallel", "-o",
                                         "image.exr", "--run", "--", *OPTIONS, preexec_fn=ignore))
 
+    def test_what_the_engine_says_is_said(self):
+        """Of a list of machines that is missing, and of machines that cannot be reached."""
+        submit = [NUSSELT, "submit", SCENE, "--parts", 2, "--engine", "parallel", "-o", "image.exr", "-q", "--run", "--",
+                  *OPTIONS]
+        outcome = self.run_in(*submit, env={**os.environ, "PARALLEL": "--sshloginfile missing-list"})
+        self.expect_error(outcome, "the job cannot be started: ")
+        self.assertIn("missing-list", outcome.stderr)
+        (self.folder / "ssh").write_text("#!/bin/sh\necho no route to host >&2; exit 255\n")
+        (self.folder / "ssh").chmod(0o755)
+        outcome = self.run_in(*submit, env={**os.environ, "PARALLEL": "-S 1/other",
+                                            "PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.expect_error(outcome, "2 of 2 tasks left no result: 1 2 (the first one: no route to host); see ")
+        self.assertFalse((self.folder / "image.exr").exists())
+
     def test_what_was_killed_is_said(self):
         self.expect_success(self.submit())
         job = self.folder / "image.job"

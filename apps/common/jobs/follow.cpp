@@ -111,7 +111,8 @@ std::string text_of(const std::filesystem::path& log) {
 
 /// Why start.sh has failed.
 std::string reason_of(int exit_code, const Job& job, const std::filesystem::path& log) {
-    if (exit_code > 128)
+    const bool is_signal = exit_code > 128 && exit_code <= 128 + SIGRTMAX; // GNU parallel also ends with 255
+    if (is_signal)
         return fmt::format(
             "signal {} ended '{}'; run the same command again, which does only what is missing",
             exit_code - 128, (job.folder / "start.sh").string());

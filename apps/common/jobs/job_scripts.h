@@ -73,7 +73,11 @@ if [ "$count" -gt 0 ]; then
         printf '%s\n' "no result of $count tasks: $missing; starting them again" >>logs/gather.txt
         exec ./start.sh
     fi
-    reason=$(grep -E '^nusselt[a-z-]*: |error: ' "logs/$(head -n 1 missing.txt).txt" 2>/dev/null | tail -n 1)
+    log=logs/$(head -n 1 missing.txt).txt
+    # What the program said, what became of it, or what the engine said of a task that it could not start.
+    reason=$(grep -E '^nusselt[a-z-]*: |error: ' "$log" 2>/dev/null | tail -n 1)
+    [ -n "$reason" ] || reason=$(tail -n 1 "$log" 2>/dev/null)
+    [ -n "$reason" ] || reason=$(tail -n 1 logs/start.txt 2>/dev/null)
     report 1 "$count of @tasks@ tasks left no result: $missing${reason:+ (the first one: $reason)}; see $PWD/logs, \
 then run the same command again, which does only these"
 fi
