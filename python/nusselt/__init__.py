@@ -11,7 +11,16 @@
 Lengths are in metres, angles in radians, radiance in W/(sr m^2). Directions point away from the surface; shading space has
 the shading point as its origin and the normal as +z.
 """
-from nusselt import _core, accuracy, bsdf, geometry, images, ltc, random
+import sys as _sys
+
+try:
+    from nusselt import _core
+except ImportError as error:
+    if "cannot import name '_core'" not in str(error):
+        raise  # a shared library, for example
+    raise ImportError(f"{__path__[0]} has no compiled module for Python {_sys.version_info[0]}.{_sys.version_info[1]}; "
+                      "docs/python.md says how to build and install it") from None
+from nusselt import accuracy, bsdf, geometry, images, ltc, random
 from nusselt._lights import Lobe, Sample, Technique
 from nusselt.images import Image, flip, rmse
 from nusselt.ltc import LtcTable

@@ -60,11 +60,9 @@ def render(scene: Scene, samples: int | None = None, *, technique: str | None = 
                 "camera_rays": camera_rays, "pixel_position": pixel_position, "brdf": brdf, "seed": seed,
                 "samples": samples, "light_samples": light_samples, "lines": lines, "orientation": orientation,
                 "offsets": offsets, "line_shading": line_shading, "many_occluders": many_occluders,
-                "layers": layers, "part": part}
+                "layers": layers.split(",") if isinstance(layers, str) else layers, "part": part}
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be a Scene, which nusselt.load() makes of a file, not {scene!r}")
-    if isinstance(layers, str):
-        layers = layers.split(",")
     if resolution is not None:
         try:
             width, height = resolution
