@@ -25,6 +25,8 @@ def main():
                         default=pathlib.Path(nusselt.__file__).parents[1] / "libnusselt_python_pack_loop.so")
     parser.add_argument("--limit", type=float, default=float("inf"))
     arguments = parser.parse_args()
+    if not arguments.library.exists():
+        sys.exit(f"there is no {arguments.library}; scripts/build.sh nusselt_python_pack_loop builds it in build/release/python")
     loop = ctypes.CDLL(str(arguments.library.resolve())).nusselt_pack_loop
     isa = ["sse42", "avx2", "avx512"].index(nusselt.instruction_set())
 
