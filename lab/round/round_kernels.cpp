@@ -91,7 +91,7 @@ constexpr RoundTechnique row(const char* name, Origin origin) {
 
 /// The variant with small backward errors for lights that touch the point.
 template <template <class> class Light>
-using Ours = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, 64>;
+using Ours = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, kFineConePlaces>;
 
 inline constexpr RoundTechnique kSpheres[] = {
     row<Ours<Sphere>, Sphere<float>>("ours, projected solid angle", Origin::ours),

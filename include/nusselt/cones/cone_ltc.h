@@ -17,7 +17,7 @@ NUSSELT_NAMESPACE_BEGIN
 ///               of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Steps  of the iteration for images above the horizon of cosine space.
-/// \tparam Places of the rim where the horizon cuts it: 16, or 64 to take as many where 16 do not suffice.
+/// \tparam Places of the rim where the horizon cuts it: kConePlaces, or kFineConePlaces where those do not suffice.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is constant as for
 /// ConeProjectedSolidAngle. density(wi) / pdf is unbiased.

@@ -15,15 +15,15 @@ NUSSELT_NAMESPACE_BEGIN
 ///               of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Steps  of the iteration for cones above the horizon.
-/// \tparam Places of the rim where the horizon cuts it: 16, or 64 to take as many where 16 do not suffice.
+/// \tparam Places of the rim where the horizon cuts it: kConePlaces, or kFineConePlaces where those do not suffice.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]. Above the horizon it is wi.z / measure(). Where the
 /// horizon cuts the light it is that, or, where an interpolant of the measure of a sweep is not exact up to rounding, that times
 /// the ratio of interpolant and sweep: wi.z / pdf is unbiased in any case.
-/// Accuracy: where the horizon cuts the light, measure() is a quadrature with as many nodes as places. With 16, of lights near the
-/// point or much longer than wide, 99 % are off by at most 6e-3 and a few by much more; with 64, of lights that touch the point or
-/// are 100 times longer than wide, 99 % are off by at most 1e-5 (docs/techniques/elliptic_cone.md). pdf is the density of the
-/// samples in any case.
+/// Accuracy: where the horizon cuts the light, measure() is a quadrature with as many nodes as places. With kConePlaces, of lights
+/// near the point or much longer than wide, 99 % are off by at most 6e-3 and a few by much more; with kFineConePlaces, of lights that
+/// touch the point or are 100 times longer than wide, 99 % are off by at most 1e-5 (docs/techniques/elliptic_cone.md). pdf is the
+/// density of the samples in any case.
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
 /// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a
 /// sphere or an ellipsoid, all directions above the horizon lead to its surface.

@@ -32,8 +32,8 @@ struct ConeSample {
 /// \tparam Real float, double, long double or a pack.
 ///
 /// The horizon is z = 0. Valid for cones that the horizon cuts; others give a measure of 0 or any density.
-/// \tparam Places of the rim, 16, or 64 to take as many where 16 do not suffice.
-template <class Real, int Places = 16>
+/// \tparam Places of the rim, kConePlaces or kFineConePlaces.
+template <class Real, int Places>
 class ConeSweep {
 public:
     ConeSweep() = default;

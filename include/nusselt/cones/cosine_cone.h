@@ -8,7 +8,7 @@ NUSSELT_NAMESPACE_BEGIN
 
 /// The part of an elliptic cone above the horizon, whether or not the horizon cuts it.
 /// \tparam Steps  of the iteration for cones above the horizon.
-/// \tparam Places of the rim of a cone that the horizon cuts, 16 or 64 (cone_sweep.h).
+/// \tparam Places of the rim of a cone that the horizon cuts, kConePlaces or kFineConePlaces.
 template <class Real, int Steps, int Places>
 class CosineCone {
 public:
@@ -61,8 +61,5 @@ private:
 /// Steps that make the backward error one of rounding.
 template <class Real>
 inline constexpr int kConeSteps = kIsSingle<Real> ? 2 : 3;
-
-/// Places of the rim that suffice for ordinary lights.
-inline constexpr int kConePlaces = 16;
 
 NUSSELT_NAMESPACE_END

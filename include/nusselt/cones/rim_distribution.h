@@ -10,6 +10,14 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
+/// \name Places of the rim of a cone that the horizon cuts: the two values of the template parameter Places.
+/// @{
+/// Suffice for ordinary lights.
+inline constexpr int kConePlaces = 16;
+/// Where kConePlaces do not suffice, take as many as this. Other lights have the same samples and cost the same.
+inline constexpr int kFineConePlaces = 64;
+/// @}
+
 namespace detail {
 
 /// Stands where a distribution has no second polynomial.
@@ -23,13 +31,15 @@ struct NoPolynomial {
 } // namespace detail
 
 /// \tparam Real   float, double, long double or a pack.
-/// \tparam Places 16, or 64 to take as many where 16 do not suffice.
-template <class Real, int Places = 16>
+/// \tparam Places kConePlaces, or kFineConePlaces.
+template <class Real, int Places>
 class RimDistribution {
+    static_assert(Places == kConePlaces || Places == kFineConePlaces,
+                  "Places is kConePlaces (16) or kFineConePlaces (64)");
     using Scalar = scalar_t<Real>;
-    using Coarse = RimPolynomial<Real, 16>;
+    using Coarse = RimPolynomial<Real, kConePlaces>;
     static constexpr int kNodes = Coarse::kNodes;
-    static constexpr bool kRefines = Places > kNodes;
+    static constexpr bool kRefines = Places == kFineConePlaces;
     using Fine = std::conditional_t<kRefines, RimPolynomial<Real, Places>, detail::NoPolynomial<Real>>;
 
 public:

@@ -93,7 +93,7 @@ Errors errors_of(Place place, int lights, const Broken& broken) {
         for (int i = 0; i < lights; ++i) {
             with_light<T>(random(shape, place), [&](const auto& light) {
                 const EllipticCone<T> cone = view_of(light, nusselt::detail::SameSpace()).cone;
-                const ConeSweep<T, 64> sweep(cone);
+                const ConeSweep<T, nusselt::kFineConePlaces> sweep(cone);
                 if (!(sweep.measure() > 0)) return;
                 const ExactSweep exact(nusselt::broadcast<double>(cone));
                 double turn = 0, way = 0;

@@ -61,8 +61,8 @@ struct Fill {
 };
 
 template <class Function>
-RimDistribution<double, 64> distribution_of(const Function& f) {
-    return RimDistribution<double, 64>(Fill<Function>{f});
+RimDistribution<double, nusselt::kFineConePlaces> distribution_of(const Function& f) {
+    return RimDistribution<double, nusselt::kFineConePlaces>(Fill<Function>{f});
 }
 
 TEST(RimDistributionTest, PolynomialsAreExact) {
