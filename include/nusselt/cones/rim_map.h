@@ -4,8 +4,38 @@
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/geometry/precise_products.h>
 
 NUSSELT_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but a sliver
+/// of a cone is on one side of the horizon, the digits that rounding takes are all that counts in the first one.
+template <class Real>
+struct HorizonGaps {
+    Real smaller, larger;
+};
+template <class Real>
+NUSSELT_INLINE HorizonGaps<Real> horizon_gaps(const Vec3<Real>& lengths, const Vec3<Real>& heights,
+                                              const Real& k) noexcept {
+    // Errors of products must not be denormal.
+    const Real scale = reciprocal_power_of_two(k);
+    const WithError<Real> a = exact_product(scale * lengths.x, heights.x);
+    const WithError<Real> b = exact_product(scale * lengths.y, heights.y);
+    const WithError<Real> c = exact_product(scale * lengths.z, heights.z);
+    const WithError<Real> aa = exact_product(a.value, a.value);
+    const WithError<Real> bb = exact_product(b.value, b.value);
+    const WithError<Real> cc = exact_product(c.value, c.value);
+    const WithError<Real> sum = exact_sum(aa.value, bb.value);
+    const WithError<Real> difference = exact_sum(sum.value, -cc.value);
+    const Real mixed = a.value * a.error + b.value * b.error - c.value * c.error;
+    const Real error = (difference.error + sum.error) + ((aa.error + bb.error) - cc.error) + (mixed + mixed);
+    const Real scaled = scale * k, larger = scaled + abs(c.value);
+    return {max(difference.value + error, Real(0)) / (larger * scaled), larger / scaled};
+}
+
+} // namespace detail
 
 /// \tparam Real float, double, long double or a pack.
 ///
@@ -49,8 +79,13 @@ public:
         is_cut_ = crosses & wide;
         const Real inverse_k = Real(1) / select(is_cut_, k, Real(1));
         up_ = {select(is_cut_, na * inverse_k, Real(1)), select(is_cut_, nb * inverse_k, Real(0))};
-        const Real lower = (k - nc) * inverse_k, upper = (k + nc) * inverse_k; // 1 - h0 and 1 + h0
+        const auto gaps = detail::horizon_gaps({a_, b_, c_}, {cone.e1.z, cone.e2.z, cone.e3.z},
+                                               select(is_cut_, k, Real(1)));
+        const auto sinks = nc < Real(0);
+        const Real lower = select(sinks, gaps.larger, gaps.smaller); // 1 - h0
+        const Real upper = select(sinks, gaps.smaller, gaps.larger); // 1 + h0
         height_ = nc * inverse_k;
+        gap_ = gaps.smaller;
         const Real half_arc = sqrt(max(lower * upper, Real(0)));
         squared_tangent_ = upper / max(lower, Real(std::numeric_limits<Scalar>::epsilon() / 16));
 
@@ -166,7 +201,12 @@ public:
         const CycloidRatio<Real> ratio = cycloid_ratio(angle.value, angle.sine, angle.cosine);
         const Real cosine = select(ratio.is_small, angle.cosine, Real(1));
         const Real weight = Real(0.25) * ratio.value / (cosine * cosine * cosine);
-        const Real volume = max(Real(1) + height_ * rim.disk.y - pole_ * rim.disk.x, Real(0));
+        // 1 + height y - pole x, where the first two terms may cancel.
+        const Real rise = abs(rim.disk.y);
+        const Real across = (rim.disk.x / (Real(1) + rise) - pole_) * rim.disk.x;
+        const Real apart = multiply_add(-pole_, rim.disk.x, multiply_add(height_, rim.disk.y, Real(1)));
+        const Real close = multiply_add(gap_, rise, across);
+        const Real volume = max(select(height_ * rim.disk.y < Real(0), close, apart), Real(0));
         const Real inverse = Real(1) / rim.length;
         return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
     }
@@ -242,6 +282,7 @@ private:
     Real a_, b_, c_;
     Vec2<Real> up_;        ///< in the disk, away from the horizon
     Real height_;          ///< of the axis above the horizon in the disk
+    Real gap_;             ///< 1 minus its magnitude, accurate relative to itself
     Real squared_tangent_; ///< of a quarter of the angle of the arc above the horizon
     Real pole_;            ///< across
     Real power_;           ///< of the pole: 1 minus its squared distance from the axis
@@ -257,7 +298,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.squared_tangent_, self.pole_,
+        visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.gap_, self.squared_tangent_, self.pole_,
               self.power_, self.distance_, self.p_, self.h_, self.shear_, self.narrowing_, self.slope_,
               self.along_across_, self.along_up_, self.squeeze_, self.stretch_, self.mid_, self.mid_length_,
               self.left_, self.half_range_, self.is_cut_);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_COSINE_CONE_GLSL
 #define NUSSELT_CONES_COSINE_CONE_GLSL
-// Follows include/nusselt/cones/cosine_cone.h @ a9a7cea59baa
+// Follows include/nusselt/cones/cosine_cone.h @ a3d2146f6c28
 /// Sampling of the part of any elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/cosine_cone.h.
 

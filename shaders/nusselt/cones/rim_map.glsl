@@ -1,17 +1,19 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 0e7f4ef8ae79
+// Follows include/nusselt/cones/rim_map.h @ 11ff5a781506
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
 #include "../cones/cycloid.glsl"
 #include "../cones/elliptic_cone.glsl"
+#include "../geometry/precise_products.glsl"
 
 /// The horizon is z = 0. Cones that it does not cut have is_cut false and any numbers.
 struct RimMap {
     float a, b, c;
     vec2 up;               ///< in the disk, away from the horizon
     float height;          ///< of the axis above the horizon in the disk
+    float gap;             ///< 1 minus its magnitude, accurate relative to itself
     float squared_tangent; ///< of a quarter of the angle of the arc above the horizon
     float pole;            ///< across
     float power;           ///< of the pole: 1 minus its squared distance from the axis
@@ -78,6 +80,29 @@ vec2 rim_map_from_up(const RimMap self, vec2 disk) {
     return vec2(disk.y * self.up.x - disk.x * self.up.y, disk.y * self.up.y + disk.x * self.up.x);
 }
 
+/// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but
+/// a sliver of a cone is on one side of the horizon, the digits that rounding takes are all that counts in the first one.
+void horizon_gaps(vec3 lengths, vec3 heights, float k, out float smaller, out float larger) {
+    // Errors of products must not be denormal.
+    float scale = reciprocal_power_of_two(k);
+    vec3 scaled_lengths = scale * lengths;
+    NUSSELT_PRECISE vec3 n = scaled_lengths * heights;
+    vec3 n_error = two_product_error(scaled_lengths, heights, n);
+    NUSSELT_PRECISE vec3 square = n * n;
+    vec3 square_error = two_product_error(n, n, square);
+    NUSSELT_PRECISE float sum = square.x + square.y;
+    NUSSELT_PRECISE float difference = sum - square.z;
+    float sum_error = two_sum_error(square.x, square.y, sum);
+    float difference_error = two_sum_error(sum, -square.z, difference);
+    float mixed = n.x * n_error.x + n.y * n_error.y - n.z * n_error.z;
+    float error = (difference_error + sum_error) + (mixed + mixed);
+    error += (square_error.x + square_error.y) - square_error.z;
+    float scaled = scale * k;
+    larger = scaled + abs(n.z);
+    smaller = nusselt_max(difference + error, 0.0) / (larger * scaled);
+    larger /= scaled;
+}
+
 RimMap make_rim_map(const EllipticCone cone) {
     // A half-space is a cone with a large angle; so nothing is infinite.
     RimMap self;
@@ -93,8 +118,11 @@ RimMap make_rim_map(const EllipticCone cone) {
     self.is_cut = abs(nc) < k && nusselt_min(self.a, self.b) > kNusseltTiny;
     float inverse_k = 1.0 / (self.is_cut ? k : 1.0);
     self.up = self.is_cut ? vec2(na, nb) * inverse_k : vec2(1.0, 0.0);
-    float lower = (k - nc) * inverse_k; // 1 - h0
-    float upper = (k + nc) * inverse_k; // 1 + h0
+    float larger;
+    horizon_gaps(vec3(self.a, self.b, self.c), vec3(cone.e1.z, cone.e2.z, cone.e3.z), self.is_cut ? k : 1.0, self.gap,
+                 larger);
+    float lower = nc < 0.0 ? larger : self.gap; // 1 - h0
+    float upper = nc < 0.0 ? self.gap : larger; // 1 + h0
     self.height = nc * inverse_k;
     float half_arc = sqrt(nusselt_max(lower * upper, 0.0));
     self.squared_tangent = upper / nusselt_max(lower, kNusseltEpsilon / 16.0);
@@ -183,7 +211,12 @@ RimTurn rim_map_turned(const RimMap self, float z) {
 float rim_map_density(const RimMap self, const RimTurn turn) {
     RimPoint rim = turn.rim;
     float weight = 0.25 * cycloid_over_cubed_sine(rim.angle, rim.sine, rim.cosine);
-    float volume = nusselt_max(1.0 + self.height * rim.disk.y - self.pole * rim.disk.x, 0.0);
+    // 1 + height y - pole x, where the first two terms may cancel.
+    float rise = abs(rim.disk.y);
+    float across = (rim.disk.x / (1.0 + rise) - self.pole) * rim.disk.x;
+    float apart = nusselt_fma(-self.pole, rim.disk.x, nusselt_fma(self.height, rim.disk.y, 1.0));
+    float close = nusselt_fma(self.gap, rise, across);
+    float volume = nusselt_max(self.height * rim.disk.y < 0.0 ? close : apart, 0.0);
     float inverse = 1.0 / rim.len;
     return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
 }
