@@ -2,7 +2,6 @@
 
 #include "base/isa.h"
 #include "base/process_time.h"
-#include "lab/round/round_kernels.h"
 #include "proof/hostile/lights.h"
 #include "proof/median.h"
 
@@ -19,8 +18,6 @@ namespace nusselt::lab {
 
 namespace {
 
-enum class Where { above, cut, close, small };
-
 Vec3<double> random_direction(hostile::RandomSource& random) {
     Vec3<double> v;
     do v = {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
@@ -28,43 +25,65 @@ Vec3<double> random_direction(hostile::RandomSource& random) {
     return normalize(v);
 }
 
-/// A light of radius 0.2 to 1, 1.2 to 5 away, or as close as 0.02 to 0.3. Small ones have a thousandth of the radius.
-void make_light(hostile::RandomSource& random, bool is_disk, Where where, RoundLights& lights, int i) {
+/// What differs between spheres and disks where lights are made.
+struct Spheres {
+    static double rise(double radius, const Vec3<double>&) { return radius; }
+    /// A centre so that the origin is as far from the surface as the gap.
+    static Vec3<double> close_center(hostile::RandomSource& random, double radius, double gap,
+                                     const Vec3<double>&) {
+        return (radius + gap) * random_direction(random);
+    }
+    static bool is_usable(const Vec3<double>&, const Vec3<double>&) { return true; }
+};
+struct Disks {
+    static double rise(double radius, const Vec3<double>& normal) {
+        return radius * std::sqrt(1 - normal.z * normal.z);
+    }
+    static Vec3<double> close_center(hostile::RandomSource& random, double radius, double gap,
+                                     const Vec3<double>& normal) {
+        return gap * normal + 0.7 * radius * normalize(cross(normal, random_direction(random)));
+    }
+    /// A disk seen edge-on is nearly no light.
+    static bool is_usable(const Vec3<double>& center, const Vec3<double>& normal) {
+        return std::fabs(dot(normal, center)) >= 0.02 * length(center);
+    }
+};
+
+void store(const Vec3<double>& from, float (&to)[3]) {
+    to[0] = static_cast<float>(from.x);
+    to[1] = static_cast<float>(from.y);
+    to[2] = static_cast<float>(from.z);
+}
+
+/// A light of radius 0.2 to 1, 1.2 to 5 away, or as close as 0.02 to 0.3 of the radius. Small ones have a thousandth of the radius.
+template <class Shape>
+void make_light(hostile::RandomSource& random, RoundPlace place, RoundLights& lights, int i) {
     for (;;) {
-        const double radius = random.between(0.2, 1) * (where == Where::small ? 1e-3 : 1);
+        const double radius = random.between(0.2, 1) * (place == RoundPlace::small ? 1e-3 : 1);
         const Vec3<double> normal = random_direction(random);
         Vec3<double> center = random.between(1.2, 5) * random_direction(random);
-        const double rise = is_disk ? radius * std::sqrt(1 - normal.z * normal.z) : radius;
-        if (where == Where::close) {
-            const double gap = radius * random.between(0.02, 0.3);
-            if (is_disk)
-                center = gap * normal + 0.7 * radius * normalize(cross(normal, random_direction(random)));
-            else
-                center = (radius + gap) * random_direction(random);
-        }
-        if (where == Where::small) center = {center.x, center.y, rise * random.between(-0.9, 0.9)};
-        const bool fits = where == Where::above ? center.z > rise * 1.001 : std::fabs(center.z) < 0.9 * rise;
-        // A disk seen edge-on is nearly no light.
-        if (!fits || (is_disk && std::fabs(dot(normal, center)) < 0.02 * length(center))) continue;
-        const Vec3<double> of[] = {center, normal};
-        for (int k = 0; k < 2; ++k) {
-            float(&to)[3] = k == 0 ? lights.center[i] : lights.normal[i];
-            to[0] = static_cast<float>(of[k].x);
-            to[1] = static_cast<float>(of[k].y);
-            to[2] = static_cast<float>(of[k].z);
-        }
+        const double rise = Shape::rise(radius, normal);
+        if (place == RoundPlace::close)
+            center = Shape::close_center(random, radius, radius * random.between(0.02, 0.3), normal);
+        if (place == RoundPlace::small) center.z = rise * random.between(-0.9, 0.9);
+        const bool fits =
+            place == RoundPlace::above ? center.z > rise * 1.001 : std::fabs(center.z) < 0.9 * rise;
+        if (!fits || !Shape::is_usable(center, normal)) continue;
+        store(center, lights.center[i]);
+        store(normal, lights.normal[i]);
         lights.radius[i] = static_cast<float>(radius);
         return;
     }
 }
 
 /// Random numbers are jittered, so that means over the samples of a light are accurate.
-void make_lights(bool is_disk, Where where, RoundLights& lights) {
+template <class Shape>
+void make_lights(RoundPlace place, RoundLights& lights) {
     constexpr int kSide = 8;
     static_assert(kSide * kSide == kRoundSamples);
     hostile::RandomSource random(7, 3);
     for (int i = 0; i < kRoundLights; ++i) {
-        make_light(random, is_disk, where, lights, i);
+        make_light<Shape>(random, place, lights, i);
         for (int k = 0; k < kRoundSamples; ++k) {
             const double x = (k % kSide + random.uniform()) / kSide,
                          y = (k / kSide + random.uniform()) / kSide;
@@ -75,83 +94,102 @@ void make_lights(bool is_disk, Where where, RoundLights& lights) {
 }
 
 RoundRow weigh(const RoundTechnique& technique, const RoundLights& lights) {
-    const auto weight = std::make_unique<float[][kRoundSamples]>(kRoundLights);
-    technique.weigh(lights, *reinterpret_cast<float(*)[kRoundLights][kRoundSamples]>(weight.get()));
+    const auto weights = std::make_unique<RoundWeights>();
+    technique.weigh(lights, *weights);
     double squares = 0;
     int invalid = 0, lit = 0;
-    for (int i = 0; i < kRoundLights; ++i) {
+    for (const auto& weight : weights->of) {
         double mean = 0, square = 0;
-        for (int k = 0; k < kRoundSamples; ++k) mean += static_cast<double>(weight[i][k]) / kRoundSamples;
-        for (int k = 0; k < kRoundSamples; ++k) {
-            const double off = static_cast<double>(weight[i][k]) - mean;
+        for (const float w : weight) mean += static_cast<double>(w) / kRoundSamples;
+        for (const float w : weight) {
+            const double off = static_cast<double>(w) - mean;
             square += off * off / kRoundSamples;
-            if (!(weight[i][k] > 0)) ++invalid;
+            if (!(w > 0)) ++invalid;
         }
         if (!(mean > 0)) continue;
         squares += square / (mean * mean);
         ++lit;
     }
     return {technique.name,
-            technique.is_ours,
-            technique.is_by_solid_angle,
+            technique.origin,
             std::sqrt(squares / std::max(lit, 1)),
             static_cast<double>(invalid) / (kRoundLights * kRoundSamples),
+            0,
             0,
             0};
 }
 
-template <class Run>
-double nanoseconds(const Run& run, const RoundLights& lights) {
+/// Per light [ns].
+double nanoseconds(void (*run)(const RoundLights&, int), const RoundLights& lights, int times) {
     const double begin = base::process_seconds();
-    const float sum = run(lights);
-    const double time = 1e9 * (base::process_seconds() - begin) / kRoundLights;
-    // What nobody uses might not be computed.
-    if (std::isnan(sum)) throw std::logic_error("a sample is not a number");
-    return time;
+    run(lights, times);
+    return 1e9 * (base::process_seconds() - begin) / (kRoundLights * times);
 }
 
-RoundClass compare(const RoundTechniques& techniques, bool is_disk, Where where, std::string name,
-                   int repetitions) {
+/// The times of one technique in each repetition [ns].
+struct Times {
+    std::vector<double> prepare, sample;
+
+    double once(std::size_t repetition) const { return prepare[repetition] + sample[repetition]; }
+};
+
+void measure_once(Times& times, const RoundTechnique& technique, const RoundLights& lights) {
+    // Preparing is so short that the clock would count.
+    const double prepare = nanoseconds(technique.prepare, lights, 16);
+    const double all = nanoseconds(technique.prepare_and_sample, lights, 1);
+    times.prepare.push_back(prepare);
+    times.sample.push_back((all - prepare) / kRoundSamples);
+}
+
+/// The one of a role, of which there is one in each list.
+template <class Rows>
+const auto& with_origin(const Rows& rows, RoundOrigin origin) {
+    const auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.origin == origin; });
+    if (found == rows.end()) throw std::logic_error("a technique is missing");
+    return *found;
+}
+
+RoundClass compare(const RoundComparison& comparison, RoundPlace place, std::string name) {
     const auto lights = std::make_unique<RoundLights>();
-    make_lights(is_disk, where, *lights);
-    RoundClass result{std::move(name), where == Where::above, {}};
-    std::vector<std::vector<double>> prepare(static_cast<std::size_t>(techniques.count)), all = prepare;
-    for (int i = 0; i < techniques.count; ++i) result.rows.push_back(weigh(techniques.first[i], *lights));
-    for (int k = -1; k < repetitions; ++k) {
-        for (std::size_t i = 0; i < prepare.size(); ++i) {
-            const double once = nanoseconds(techniques.first[i].prepare, *lights);
-            const double often = nanoseconds(techniques.first[i].prepare_and_sample, *lights);
-            if (k < 0) continue; // The first round warms up.
-            prepare[i].push_back(once);
-            all[i].push_back(often);
-        }
+    comparison.make_lights(place, *lights);
+    const RoundTechniques techniques = comparison.techniques();
+    RoundClass result{std::move(name), place == RoundPlace::above, {}};
+    std::vector<Times> times(static_cast<std::size_t>(techniques.count));
+    for (int i = 0; i < techniques.count; ++i) {
+        result.rows.push_back(weigh(techniques.first[i], *lights));
+        Times warm_up;
+        measure_once(warm_up, techniques.first[i], *lights);
     }
-    for (std::size_t i = 0; i < prepare.size(); ++i) {
-        result.rows[i].prepare_ns = proof::median(prepare[i]);
-        result.rows[i].sample_ns = (proof::median(all[i]) - result.rows[i].prepare_ns) / kRoundSamples;
+    for (int k = 0; k < comparison.repetitions; ++k)
+        for (std::size_t i = 0; i < times.size(); ++i) measure_once(times[i], techniques.first[i], *lights);
+
+    const Times& ours =
+        times[static_cast<std::size_t>(&with_origin(result.rows, RoundOrigin::ours) - result.rows.data())];
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        std::vector<double> ratios;
+        for (std::size_t k = 0; k < times[i].prepare.size(); ++k)
+            ratios.push_back(times[i].once(k) / ours.once(k));
+        result.rows[i].prepare_ns = proof::median(times[i].prepare);
+        result.rows[i].sample_ns = proof::median(times[i].sample);
+        result.rows[i].cost = proof::median(ratios);
     }
     return result;
 }
 
-const RoundRow& row_of(const RoundClass& lights, bool RoundRow::*which) {
-    for (const RoundRow& row : lights.rows)
-        if (row.*which) return row;
-    throw std::logic_error("a technique is missing");
-}
-
 /// Of the mean of one sample per light, and of as many as fit into the time of one of our samples.
-double noise_at_equal_time(const RoundRow& row, const RoundRow& ours) {
-    return row.noise * std::sqrt((row.prepare_ns + row.sample_ns) / (ours.prepare_ns + ours.sample_ns));
-}
+double noise_at_equal_time(const RoundRow& row) { return row.noise * std::sqrt(row.cost); }
 
 } // namespace
 
 const std::vector<RoundComparison>& all_round_comparisons() {
     static const std::vector<RoundComparison> all = {
         {"round-spheres", "Ureña and Georgiev 2018; Peters and Dachsbacher 2019",
-         "Noise and cost of diffuse light from spheres, at equal samples and at equal time.", false},
+         "Noise and cost of diffuse light from spheres, at equal samples and at equal time.",
+         techniques_for_spheres, make_lights<Spheres>},
         {"round-disks", "Gamito 2016; Guillén et al. 2017",
-         "Noise and cost of diffuse light from disks, at equal samples and at equal time.", true}};
+         "Noise and cost of diffuse light from disks, at equal samples and at equal time.",
+         techniques_for_disks, make_lights<Disks>}};
     return all;
 }
 
@@ -168,18 +206,15 @@ std::string obstacle(const RoundComparison&) {
 
 RoundResult run_round_comparison(const RoundComparison& comparison, const RunSettings&,
                                  const ProgressText& progress) {
-    const RoundTechniques techniques =
-        comparison.has_disks ? techniques_for_disks() : techniques_for_spheres();
     RoundResult result{comparison, {}};
-    const std::pair<const char*, Where> kClasses[] = {
-        {"above the horizon", Where::above},
-        {"cut by the horizon", Where::cut},
-        {"close to the point, cut by the horizon", Where::close},
-        {"small, cut by the horizon", Where::small}};
-    for (const auto& [name, where] : kClasses) {
+    const std::pair<const char*, RoundPlace> kClasses[] = {
+        {"above the horizon", RoundPlace::above},
+        {"cut by the horizon", RoundPlace::cut},
+        {"close to the point, cut by the horizon", RoundPlace::close},
+        {"small, cut by the horizon", RoundPlace::small}};
+    for (const auto& [name, place] : kClasses) {
         progress(fmt::format("lights {}", name));
-        result.classes.push_back(
-            compare(techniques, comparison.has_disks, where, name, comparison.repetitions));
+        result.classes.push_back(compare(comparison, place, name));
     }
     return result;
 }
@@ -187,12 +222,14 @@ RoundResult run_round_comparison(const RoundComparison& comparison, const RunSet
 Report report_of(const RoundResult& result) {
     Report report;
     report.setting = fmt::format("{} lights of each class, {} jittered samples each, scalars in float on one "
-                                 "thread, compiled for AVX2; medians of {} "
-                                 "interleaved repetitions. Noise is the relative standard deviation of one "
-                                 "sample of unshadowed diffuse light, the root of the "
-                                 "mean square over lights. Equal time: the noise of as many lights with one "
-                                 "sample each as our technique takes in the same "
-                                 "time.",
+                                 "thread, compiled for AVX2; medians "
+                                 "of {} interleaved repetitions. Our technique by projected solid angle has "
+                                 "64 nodes where 16 do not suffice. "
+                                 "Noise is the relative standard deviation of one sample of unshadowed "
+                                 "diffuse light, the root of the mean "
+                                 "square over lights. Cost is the time to prepare a light and to take one "
+                                 "sample, relative to ours; equal time is "
+                                 "the noise of as many such samples as fit into the time of one of ours.",
                                  kRoundLights, kRoundSamples, result.comparison.repetitions);
     ResultTable numbers = {"techniques",
                            {{"lights"},
@@ -201,19 +238,21 @@ Report report_of(const RoundResult& result) {
                             {"noise_at_equal_time"},
                             {"invalid"},
                             {"prepare_ns", "ns"},
-                            {"sample_ns", "ns"}}};
+                            {"sample_ns", "ns"},
+                            {"cost"}}};
     for (const RoundClass& lights : result.classes) {
         Table table = {
-            {lights.lights, "noise", "noise, equal time", "invalid", "prepare [ns]", "sample [ns]"}};
-        const RoundRow& ours = row_of(lights, &RoundRow::is_ours);
-        const RoundRow& usual = row_of(lights, &RoundRow::is_by_solid_angle);
+            {lights.lights, "noise", "noise, equal time", "invalid", "prepare [ns]", "sample [ns]", "cost"}};
+        const RoundRow& ours = with_origin(lights.rows, RoundOrigin::ours);
+        const RoundRow& usual = with_origin(lights.rows, RoundOrigin::usual);
         for (const RoundRow& row : lights.rows) {
-            const double equal_time = noise_at_equal_time(row, ours);
+            const double equal_time = noise_at_equal_time(row);
             table.push_back({row.technique, fmt::format("{:.2g}", row.noise),
                              fmt::format("{:.2g}", equal_time), fmt::format("{:.1f} %", 100 * row.invalid),
-                             fmt::format("{:.0f}", row.prepare_ns), fmt::format("{:.0f}", row.sample_ns)});
+                             fmt::format("{:.0f}", row.prepare_ns), fmt::format("{:.0f}", row.sample_ns),
+                             fmt::format("{:.2f}", row.cost)});
             numbers.rows.push_back({lights.lights, row.technique, row.noise, equal_time, row.invalid,
-                                    row.prepare_ns, row.sample_ns});
+                                    row.prepare_ns, row.sample_ns, row.cost});
         }
         report.tables.push_back(std::move(table));
         const double limit = lights.is_exact ? 1e-4 : usual.noise / 5;

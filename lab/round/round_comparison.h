@@ -4,17 +4,22 @@
 
 #include "lab/report/report.h"
 #include "lab/report/run_settings.h"
+#include "lab/round/round_kernels.h"
 
 #include <string>
 #include <vector>
 
 namespace nusselt::lab {
 
+/// Where the lights of a class are.
+enum class RoundPlace { above, cut, close, small };
+
 struct RoundComparison {
     std::string name; ///< on the command line
     std::string source;
     std::string description;
-    bool has_disks;       ///< instead of spheres
+    RoundTechniques (*techniques)();
+    void (*make_lights)(RoundPlace place, RoundLights& lights);
     int repetitions = 41; ///< of the interleaved series
 };
 
@@ -29,12 +34,13 @@ std::string obstacle(const RoundComparison& comparison);
 /// One technique for lights of one class.
 struct RoundRow {
     std::string technique;
-    bool is_ours, is_by_solid_angle;
+    RoundOrigin origin;
     double
-        noise; ///< of the cosine over the density of one sample, relative to its mean; the mean square over lights
+        noise; ///< of the cosine over the density of a sample, relative to its mean; root mean square over lights
     double invalid;    ///< share of samples without a weight
-    double prepare_ns; ///< medians
-    double sample_ns;
+    double prepare_ns; ///< median
+    double sample_ns;  ///< median
+    double cost; ///< of preparing and one sample, relative to ours; median of the ratios within a repetition
 };
 
 struct RoundClass {

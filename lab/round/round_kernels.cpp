@@ -10,6 +10,7 @@
 #include <nusselt/related/sphere_area.h>
 #include <nusselt/related/sphere_projected_solid_angle_peters.h>
 #include <nusselt/related/sphere_projected_solid_angle_urena.h>
+#include <nusselt/related/sphere_solid_angle_wang.h>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace round_kernels {
@@ -17,7 +18,9 @@ namespace round_kernels {
 using lab::kRoundLights;
 using lab::kRoundSamples;
 using lab::RoundLights;
+using lab::RoundOrigin;
 using lab::RoundTechnique;
+using lab::RoundWeights;
 
 inline Vec3<float> vector(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
@@ -44,48 +47,50 @@ inline bool hits(const Disk<float>& light, const Vec3<float>& wi) {
     return distance > 0 && length(distance * d - c) <= 1.001 * static_cast<double>(light.radius);
 }
 
+/// Makes the compiler believe that an object is read completely. What only some members need would not be computed otherwise.
+template <class T>
+void escape(const T& object) {
+    asm volatile("" : : "r"(&object) : "memory");
+}
+
 template <class Technique, class Light>
-void weigh(const RoundLights& lights, float (&weight)[kRoundLights][kRoundSamples]) {
+void weigh(const RoundLights& lights, RoundWeights& weights) {
     for (int i = 0; i < kRoundLights; ++i) {
         const Light light = light_at<Light>(lights, i);
         const Technique technique(light);
         for (int k = 0; k < kRoundSamples; ++k) {
             const auto s = technique.sample({lights.u[i][k][0], lights.u[i][k][1]});
             const float cosine = max(s.wi.z, 0.0f);
-            weight[i][k] = s.pdf > 0 && hits(light, s.wi) ? cosine / s.pdf : 0.0f;
+            weights.of[i][k] = s.pdf > 0 && hits(light, s.wi) ? cosine / s.pdf : 0.0f;
         }
     }
 }
 
 template <class Technique, class Light>
-float prepare(const RoundLights& lights) {
-    float sum = 0;
-    for (int i = 0; i < kRoundLights; ++i) sum += Technique(light_at<Light>(lights, i)).measure();
-    return sum;
-}
-
-template <class Technique, class Light>
-float prepare_and_sample(const RoundLights& lights) {
-    float sum = 0;
-    for (int i = 0; i < kRoundLights; ++i) {
-        const Technique technique(light_at<Light>(lights, i));
-        for (int k = 0; k < kRoundSamples; ++k) {
-            const auto s = technique.sample({lights.u[i][k][0], lights.u[i][k][1]});
-            sum += s.pdf + s.p.x + s.wi.z;
+void prepare(const RoundLights& lights, int times) {
+    for (int n = 0; n < times; ++n) {
+        for (int i = 0; i < kRoundLights; ++i) {
+            const Technique technique(light_at<Light>(lights, i));
+            escape(technique);
         }
     }
-    return sum;
 }
 
-enum class Origin { ours, usual, published };
+template <class Technique, class Light>
+void prepare_and_sample(const RoundLights& lights, int times) {
+    for (int n = 0; n < times; ++n) {
+        for (int i = 0; i < kRoundLights; ++i) {
+            const Technique technique(light_at<Light>(lights, i));
+            escape(technique);
+            for (int k = 0; k < kRoundSamples; ++k)
+                escape(technique.sample({lights.u[i][k][0], lights.u[i][k][1]}));
+        }
+    }
+}
 
 template <class Technique, class Light>
-constexpr RoundTechnique row(const char* name, Origin origin) {
-    return {name,
-            origin == Origin::ours,
-            origin == Origin::usual,
-            weigh<Technique, Light>,
-            prepare<Technique, Light>,
+constexpr RoundTechnique row(const char* name, RoundOrigin origin) {
+    return {name, origin, weigh<Technique, Light>, prepare<Technique, Light>,
             prepare_and_sample<Technique, Light>};
 }
 
@@ -94,21 +99,22 @@ template <template <class> class Light>
 using Ours = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, kFineConePlaces>;
 
 inline constexpr RoundTechnique kSpheres[] = {
-    row<Ours<Sphere>, Sphere<float>>("ours, projected solid angle", Origin::ours),
+    row<Ours<Sphere>, Sphere<float>>("ours, projected solid angle", RoundOrigin::ours),
     row<SphereProjectedSolidAnglePeters<float>, Sphere<float>>("Peters and Dachsbacher 2019",
-                                                               Origin::published),
-    row<SphereProjectedSolidAngleUrena<float>, Sphere<float>>("Ureña and Georgiev 2018", Origin::published),
-    row<ConeSolidAngle<float, Sphere>, Sphere<float>>("solid angle (Wang 1992)", Origin::usual),
-    row<SphereArea<float>, Sphere<float>>("area", Origin::published),
+                                                               RoundOrigin::other),
+    row<SphereProjectedSolidAngleUrena<float>, Sphere<float>>("Ureña and Georgiev 2018", RoundOrigin::other),
+    row<SphereSolidAngleWang<float>, Sphere<float>>("solid angle, Wang 1992", RoundOrigin::usual),
+    row<ConeSolidAngle<float, Sphere>, Sphere<float>>("ours, solid angle", RoundOrigin::other),
+    row<SphereArea<float>, Sphere<float>>("area", RoundOrigin::other),
 };
 inline constexpr RoundTechnique kDisks[] = {
-    row<Ours<Disk>, Disk<float>>("ours, projected solid angle", Origin::ours),
+    row<Ours<Disk>, Disk<float>>("ours, projected solid angle", RoundOrigin::ours),
     row<ConeProjectedRejectionGamito<float, Disk>, Disk<float>>("Gamito 2016, projected rectangle",
-                                                                Origin::published),
-    row<ConeSolidAngle<float, Disk>, Disk<float>>("ours, solid angle", Origin::usual),
-    row<ConeSolidAngleGuillen<float, Disk>, Disk<float>>("Guillén et al. 2017", Origin::published),
-    row<ConeRejectionGamito<float, Disk>, Disk<float>>("Gamito 2016", Origin::published),
-    row<EllipseArea<float, Disk>, Disk<float>>("area", Origin::published),
+                                                                RoundOrigin::other),
+    row<ConeSolidAngle<float, Disk>, Disk<float>>("ours, solid angle", RoundOrigin::usual),
+    row<ConeSolidAngleGuillen<float, Disk>, Disk<float>>("Guillén et al. 2017", RoundOrigin::other),
+    row<ConeRejectionGamito<float, Disk>, Disk<float>>("Gamito 2016", RoundOrigin::other),
+    row<EllipseArea<float, Disk>, Disk<float>>("area", RoundOrigin::other),
 };
 
 template <int n>

@@ -14,15 +14,22 @@ struct RoundLights {
     float u[kRoundLights][kRoundSamples][2];
 };
 
-/// The results of the last two have no meaning, but must be used.
+struct RoundWeights {
+    float of[kRoundLights][kRoundSamples];
+};
+
+/// Who made a technique. The usual one is by solid angle; others are compared with it.
+enum class RoundOrigin { ours, usual, other };
+
 struct RoundTechnique {
     const char* name;
-    bool is_ours;
-    bool is_by_solid_angle; ///< the usual one, with which others are compared
+    RoundOrigin origin;
     /// The cosine over the density of each sample, 0 for those that miss the light.
-    void (*weigh)(const RoundLights&, float (&weight)[kRoundLights][kRoundSamples]);
-    float (*prepare)(const RoundLights&);
-    float (*prepare_and_sample)(const RoundLights&); ///< kRoundSamples samples of each light
+    void (*weigh)(const RoundLights&, RoundWeights&);
+    /// Prepares each light so many times.
+    void (*prepare)(const RoundLights&, int times);
+    /// Prepares each light and takes kRoundSamples samples of it, so many times.
+    void (*prepare_and_sample)(const RoundLights&, int times);
 };
 
 struct RoundTechniques {

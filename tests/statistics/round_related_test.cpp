@@ -11,6 +11,7 @@
 #include <nusselt/related/sphere_area.h>
 #include <nusselt/related/sphere_projected_solid_angle_peters.h>
 #include <nusselt/related/sphere_projected_solid_angle_urena.h>
+#include <nusselt/related/sphere_solid_angle_wang.h>
 
 #include "cones/round_cases.h"
 #include "hypothesis.h"
@@ -65,6 +66,9 @@ void expect_unbiased(Shape shape) {
 
 TEST(RoundRelatedTest, SpheresByAreaFollowTheirDensity) {
     expect_unbiased<nusselt::SphereArea>(Shape::sphere);
+}
+TEST(RoundRelatedTest, UniformConesFollowTheirDensity) {
+    expect_unbiased<nusselt::SphereSolidAngleWang>(Shape::sphere);
 }
 TEST(RoundRelatedTest, ProjectedCapsByCutDisksFollowTheirDensity) {
     expect_unbiased<nusselt::SphereProjectedSolidAnglePeters>(Shape::sphere);

@@ -1,150 +1,112 @@
 #pragma once
 /// Sampling of the solid angle of spheres, disks, ellipses and ellipsoids, for surfaces and for volumes.
 ///
-/// Derived here. Projected along its axis, an elliptic cone is an ellipse. Along each of its radii, the cosine of the angle from
-/// the axis is uniform up to the rim, where it is w. The angle around the axis has a density proportional to 1 / (1 + w), which
-/// is between 1/2 and 1 for every cone, and interpolated in one quadrant. For spheres it is constant: the method is that of
+/// Derived here. The map is that of spherical_ellipse.h. The density of the angle around the axis is between 1/2 and 1 for every
+/// cone, and interpolated in one quadrant. For spheres it is constant: the method is that of
 /// C. Wang 1992, Physically correct direct lighting for distribution ray tracing, Graphics Gems III.
 
-#include <nusselt/cones/round_lights.h>
-#include <nusselt/core/light_sample.h>
-#include <nusselt/core/trig.h>
+#include <nusselt/cones/spherical_ellipse.h>
 #include <nusselt/sampling/piecewise_linear.h>
 
 NUSSELT_NAMESPACE_BEGIN
+
+/// The turn around the axis of an elliptic cone: the drop is interpolated linearly between eight nodes of a quadrant.
+template <class Real>
+class InterpolatedTurn {
+    using Scalar = scalar_t<Real>;
+    static constexpr int kNodes = 8;
+    using Warp = PiecewiseLinear<Real, kNodes>;
+
+public:
+    static constexpr bool kIsExact = false;
+
+    InterpolatedTurn() = default;
+    NUSSELT_HD explicit InterpolatedTurn(const RimDrop<Real>& drop) noexcept : drop_(drop) {
+        Real value[kNodes];
+        for (int i = 0; i < kNodes; ++i) {
+            const auto turn = sincos_quarter_turn(Real(kPi<Scalar> / 2 * Warp::node(i)));
+            value[i] = drop_(turn.cos, turn.sin);
+        }
+        warp_ = Warp(value);
+    }
+    template <class Single>
+    NUSSELT_HD explicit InterpolatedTurn(const InterpolatedTurn<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    NUSSELT_HD Real drop(const Real& cosine, const Real& sine) const noexcept { return drop_(cosine, sine); }
+    NUSSELT_HD const Real& integral() const noexcept { return warp_.integral(); }
+    NUSSELT_HD Real invert(const Real& share) const noexcept { return warp_.invert(share); }
+    NUSSELT_HD Real below(const Real& part) const noexcept { return warp_.below(part); }
+    NUSSELT_HD Real weight(const Real& part, const Real& cosine, const Real& sine) const noexcept {
+        return warp_.value(part) / drop_(cosine, sine);
+    }
+
+private:
+    RimDrop<Real> drop_;
+    Warp warp_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.drop_, self.warp_);
+    }
+};
+
+/// The turn around the axis of a circular cone: the drop is constant.
+template <class Real>
+class EvenTurn {
+public:
+    static constexpr bool kIsExact = true;
+
+    EvenTurn() = default;
+    NUSSELT_HD explicit EvenTurn(const RimDrop<Real>& drop) noexcept : drop_(drop(Real(1), Real(0))) {}
+    template <class Single>
+    NUSSELT_HD explicit EvenTurn(const EvenTurn<Single>& single) noexcept {
+        broadcast_members<Real>(*this, single);
+    }
+
+    NUSSELT_HD const Real& drop(const Real&, const Real&) const noexcept { return drop_; }
+    NUSSELT_HD const Real& integral() const noexcept { return drop_; }
+    NUSSELT_HD static Real invert(const Real& share) noexcept { return share; }
+    NUSSELT_HD Real below(const Real& part) const noexcept { return part * drop_; }
+
+private:
+    Real drop_;
+
+    friend struct detail::Members;
+    template <class Self, class Visit>
+    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
+        visit(self.drop_);
+    }
+};
+
+namespace detail {
+
+template <template <class> class Light>
+struct TurnOf {
+    template <class Real>
+    using Type = InterpolatedTurn<Real>;
+};
+template <>
+struct TurnOf<Sphere> {
+    template <class Real>
+    using Type = EvenTurn<Real>;
+};
+
+} // namespace detail
 
 /// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
 ///               of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]. It is constant for spheres. 1 / pdf is unbiased, and for
-/// other lights within 1 % of the mean.
+/// other lights within 1 % of the mean. measure() is exact for spheres, and else has a relative error below 1 %.
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an ellipsoid, all
 /// directions lead to its surface.
 template <class Real, template <class> class Light>
-class ConeSolidAngle {
-    using Scalar = scalar_t<Real>;
-    static constexpr int kNodes = 8;
-    using Warp = PiecewiseLinear<Real, kNodes>;
-
-public:
-    /// \param light relative to the shading point [m].
-    NUSSELT_HD explicit ConeSolidAngle(const Light<Real>& light) noexcept
-        : view_(view_of(light, detail::SameSpace())) {
-        const EllipticCone<Real>& cone = view_.cone;
-        const Real a1 = detail::hypotenuse(cone.a, cone.c), b1 = detail::hypotenuse(cone.b, cone.c);
-        sine_ = {detail::over_positive(cone.a, a1), detail::over_positive(cone.b, b1)};
-        cosine_ = {detail::over_positive(cone.c, a1), detail::over_positive(cone.c, b1)};
-        Real value[kNodes];
-        for (int i = 0; i < kNodes; ++i) {
-            const auto turn = sincos_quarter_turn(Real(kPi<Scalar> / 2 * Warp::node(i)));
-            value[i] = drop(turn.cos, turn.sin);
-        }
-        around_ = Warp(value);
-        const Real measure = Real(2 * kPi<Scalar>) * (sine_.x * sine_.y) * around_.integral();
-        const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
-        const auto lit = cone.is_visible & (measure > Real(0)) & is_finite(inverse);
-        measure_ = select(lit, measure, Real(0));
-        inverse_measure_ = select(lit, inverse, Real(0));
-    }
-
-    /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.
-    template <class Single>
-    NUSSELT_HD explicit ConeSolidAngle(const ConeSolidAngle<Single, Light>& single) noexcept {
-        broadcast_members<Real>(*this, single);
-    }
-
-    /// \param u in [0, 1)^2; u.x turns around the axis, u.y leads away from it. Continuous in both.
-    NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        // Quadrants two and four are mirrored.
-        const Real turns = Real(4) * u.x;
-        const Real quadrant = min(floor(turns), Real(3));
-        const Real inside = turns - quadrant;
-        const auto mirrored = (quadrant == Real(1)) | (quadrant == Real(3));
-        const Real x = around_.invert(select(mirrored, Real(1) - inside, inside));
-        const auto turn = sincos_quarter_turn(Real(kPi<Scalar> / 2) * x);
-        const auto left = (quadrant == Real(1)) | (quadrant == Real(2));
-        const Vec2<Real> direction{select(left, -turn.cos, turn.cos),
-                                   select(quadrant >= Real(2), -turn.sin, turn.sin)};
-
-        // The cosine of the angle from the axis is uniform; its complement keeps small angles apart.
-        const Real squared = squared_sine(turn.cos, turn.sin);
-        const Real fall = u.y * drop(turn.cos, turn.sin);
-        const Real radius = sqrt(max(fall * (Real(2) - squared * fall), Real(0)));
-        const Real cosine = Real(1) - squared * fall;
-        const EllipticCone<Real>& cone = view_.cone;
-        const Vec3<Real> sampled = (radius * sine_.x * direction.x) * cone.e1 +
-                                   (radius * sine_.y * direction.y) * cone.e2 + cosine * cone.e3;
-        const Vec3<Real> wi = select(measure_ > Real(0), sampled, Vec3<Real>{Real(0), Real(0), Real(1)});
-        const Real inverse = detail::over_positive(radius, cosine);
-        const Vec2<Real> disk{inverse * cosine_.x * direction.x, inverse * cosine_.y * direction.y};
-        const Real distance = max(dot(wi, view_.point(disk, wi)), Real(0));
-        return {wi, pdf(wi), (view_.inverse_scale * distance) * wi};
-    }
-
-    /// \param wi a unit direction towards the light.
-    NUSSELT_HD Real pdf(const Vec3<Real>& wi) const noexcept {
-        const Place place = place_of(wi);
-        const Real density = around_.value(place.x) / drop(place.cosine, place.sine) * inverse_measure_;
-        return select(is_finite(density), density, Real(0));
-    }
-
-    /// The random numbers for which sample() returns wi, a unit direction on the light.
-    NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        const Place place = place_of(wi);
-        const Real share = detail::over_positive(around_.below(place.x), around_.integral());
-        const auto left = dot(wi, view_.cone.e1) < Real(0);
-        const auto low = dot(wi, view_.cone.e2) < Real(0);
-        const Real turns =
-            select(low, select(left, Real(2) + share, Real(4) - share), select(left, Real(2) - share, share));
-        const Real up = Real(1) + dot(wi, view_.cone.e3);
-        // 1 - cosine over the squared sine at the rim is the squared radius over 1 + cosine.
-        const Real fall =
-            select(view_.is_open(), Real(2) - up, detail::over_positive(place.radius * place.radius, up));
-        return {below_one(Real(0.25) * turns), below_one(fall / drop(place.cosine, place.sine))};
-    }
-
-    /// Estimate of the solid angle of the light [sr]: exact for spheres, else with a relative error below 1 %.
-    NUSSELT_HD Real measure() const noexcept { return measure_; }
-
-private:
-    /// A direction in the quadrant of positive coordinates.
-    struct Place {
-        Real x, cosine, sine, radius;
-    };
-
-    NUSSELT_HD Place place_of(const Vec3<Real>& wi) const noexcept {
-        const Real x = detail::over_positive(abs(dot(wi, view_.cone.e1)), sine_.x);
-        const Real y = detail::over_positive(abs(dot(wi, view_.cone.e2)), sine_.y);
-        const Real radius = detail::hypotenuse(x, y);
-        const Real inverse = detail::over_positive(Real(1), radius);
-        const Real angle = Real(2 / kPi<Scalar>) * atan2_positive(y, x);
-        return {min(angle, Real(1)), select(inverse > Real(0), x * inverse, Real(1)), y * inverse, radius};
-    }
-
-    NUSSELT_HD Real squared_sine(const Real& cosine, const Real& sine) const noexcept {
-        const Real x = sine_.x * cosine, y = sine_.y * sine;
-        return min(multiply_add(x, x, y * y), Real(1));
-    }
-
-    /// By how much the cosine falls from the axis to the rim, over the squared sine there. From inside, it falls to -1.
-    NUSSELT_HD Real drop(const Real& cosine, const Real& sine) const noexcept {
-        const Real w = detail::hypotenuse(cosine_.x * cosine, cosine_.y * sine);
-        return select(view_.is_open(), Real(2), Real(1) / (Real(1) + w));
-    }
-
-    LightView<Light<Real>> view_;
-    Vec2<Real> sine_, cosine_; ///< of the half-angles
-    Warp around_;
-    Real measure_, inverse_measure_;
-
-    friend struct detail::Members;
-    template <class Self, class Visit>
-    NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.view_, self.sine_, self.cosine_, self.around_, self.measure_, self.inverse_measure_);
-    }
-};
+using ConeSolidAngle = SphericalEllipse<Real, Light, detail::TurnOf<Light>::template Type>;
 
 /// \name The technique for each shape.
 /// @{

@@ -5,6 +5,7 @@
 #include <nusselt/related/sphere_area.h>
 #include <nusselt/related/sphere_projected_solid_angle_peters.h>
 #include <nusselt/related/sphere_projected_solid_angle_urena.h>
+#include <nusselt/related/sphere_solid_angle_wang.h>
 #include <nusselt/simd/pack.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ struct Method {
 
 using Area = Method<nusselt::SphereArea, Shape::sphere, true>;
 using Methods =
-    ::testing::Types<Area, Method<nusselt::SphereProjectedSolidAnglePeters, Shape::sphere, false>,
+    ::testing::Types<Area, Method<nusselt::SphereSolidAngleWang, Shape::sphere, false>,
+                     Method<nusselt::SphereProjectedSolidAnglePeters, Shape::sphere, false>,
                      Method<nusselt::SphereProjectedSolidAngleUrena, Shape::sphere, false>,
                      Method<DiskGuillen, Shape::disk, false>, Method<DiskGamito, Shape::disk, true>,
                      Method<DiskProjectedGamito, Shape::disk, true>>;
@@ -176,6 +178,20 @@ TYPED_TEST(RelatedRoundLightsTest, DensityIntegratesFunctionsOverTheLight) {
 TYPED_TEST(RelatedRoundLightsTest, DensitiesOffByOnePercentAreRejected) {
     EXPECT_GT(estimate_error<TypeParam>([](const auto&, const auto& s) { return 1.01 * s.pdf; }),
               kEstimateBudget);
+}
+
+TEST(RelatedRoundLightsTest, UniformConesHaveTheSolidAnglesOfFarAndNearSpheres) {
+    for (const double distance : {1.0001, 1.5, 3.0, 1e3, 1e6}) {
+        const Sphere<double> sphere{{0.6 * distance, 0, 0.8 * distance}, 1};
+        const double sine = 1 / distance, cosine = std::sqrt((1 - sine) * (1 + sine));
+        const double expected = 2 * static_cast<double>(kPi) * sine * sine / (1 + cosine);
+        EXPECT_NEAR(nusselt::SphereSolidAngleWang<double>(sphere).measure() / expected, 1, 1e-12);
+        const Sphere<float> single{nusselt::broadcast<float>(sphere.center), 1};
+        EXPECT_NEAR(nusselt::SphereSolidAngleWang<float>(single).measure() / expected, 1,
+                    distance < 1.001 ? 2e-4 : 1e-6);
+        EXPECT_NEAR((nusselt::ConeSolidAngle<float, Sphere>(single).measure() / expected), 1,
+                    distance < 1.001 ? 2e-4 : 1e-6);
+    }
 }
 
 TEST(RelatedRoundLightsTest, MeasuresAreContourIntegrals) {
