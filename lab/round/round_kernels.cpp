@@ -94,12 +94,15 @@ constexpr RoundTechnique row(const char* name, RoundOrigin origin) {
             prepare_and_sample<Technique, Light>};
 }
 
-/// The variant with small backward errors for lights that touch the point.
+/// The variant with small backward errors for lights that touch the point, and that of the renderers.
 template <template <class> class Light>
 using Ours = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, kFineConePlaces>;
+template <template <class> class Light>
+using OursOfRenderers = ConeProjectedSolidAngle<float, Light, kConeSteps<float>, kConePlaces>;
 
 inline constexpr RoundTechnique kSpheres[] = {
-    row<Ours<Sphere>, Sphere<float>>("ours, projected solid angle", RoundOrigin::ours),
+    row<Ours<Sphere>, Sphere<float>>("ours, up to 64 nodes", RoundOrigin::ours),
+    row<OursOfRenderers<Sphere>, Sphere<float>>("ours, 16 nodes", RoundOrigin::other),
     row<SphereProjectedSolidAnglePeters<float>, Sphere<float>>("Peters and Dachsbacher 2019",
                                                                RoundOrigin::other),
     row<SphereProjectedSolidAngleUrena<float>, Sphere<float>>("Ureña and Georgiev 2018", RoundOrigin::other),
@@ -108,7 +111,8 @@ inline constexpr RoundTechnique kSpheres[] = {
     row<SphereArea<float>, Sphere<float>>("area", RoundOrigin::other),
 };
 inline constexpr RoundTechnique kDisks[] = {
-    row<Ours<Disk>, Disk<float>>("ours, projected solid angle", RoundOrigin::ours),
+    row<Ours<Disk>, Disk<float>>("ours, up to 64 nodes", RoundOrigin::ours),
+    row<OursOfRenderers<Disk>, Disk<float>>("ours, 16 nodes", RoundOrigin::other),
     row<ConeProjectedRejectionGamito<float, Disk>, Disk<float>>("Gamito 2016, projected rectangle",
                                                                 RoundOrigin::other),
     row<ConeSolidAngle<float, Disk>, Disk<float>>("ours, solid angle", RoundOrigin::usual),

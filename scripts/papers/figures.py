@@ -149,34 +149,35 @@ def draw_maps(path):
 
 
 def draw_noise(path):
-    """Noise at equal time, on a scale of logarithms."""
-    rows = []
-    for shape in ("spheres", "disks"):
+    """Noise at equal time, on a scale of logarithms: spheres on the left, disks on the right."""
+    low, high, names, bars, width = 1e-8, 10.0, 200, 220, 440
+    drawing, lowest = None, 0
+    for column, shape in enumerate(("spheres", "disks")):
         data = json.loads((ROOT / f"docs/data/round-{shape}.json").read_text(encoding="utf-8"))
         table = next(t for t in data["tables"] if t["name"] == "techniques")
-        names = [column["name"] for column in table["columns"]]
-        rows += [(shape, dict(zip(names, row))) for row in table["rows"]]
-    classes = list(dict.fromkeys((shape, row["lights"]) for shape, row in rows))
-    low, high, left, right = 1e-8, 10.0, 330, 740
+        rows = [dict(zip([c["name"] for c in table["columns"]], row)) for row in table["rows"]]
+        classes = list(dict.fromkeys(row["lights"] for row in rows))
+        height = 20 * len(rows) + 28 * len(classes) + 36
+        if drawing is None:
+            drawing, lowest = Drawing(2 * width, height), height
+        left = column * width + names
 
-    def place(noise):
-        return left + (right - left) * math.log(max(noise, low) / low) / math.log(high / low)
+        def place(noise):
+            return left + bars * math.log(max(noise, low) / low) / math.log(high / low)
 
-    height = 26 * len(rows) + 34 * len(classes) + 40
-    drawing = Drawing(780, height)
-    for exponent in range(-8, 2):
-        x = place(10.0 ** exponent)
-        drawing.line([(x, 20), (x, height - 30)], "#dddddd")
-        drawing.text(x, height - 12, f"10<tspan dy='-5' font-size='9'>{exponent}</tspan>")
-    y = 12
-    for shape, lights in classes:
-        y += 30
-        drawing.text(12, y, f"<tspan font-weight='bold'>{shape} {lights}</tspan>", "start")
-        for row in (row for s, row in rows if (s, row["lights"]) == (shape, lights)):
+        for exponent in range(-8, 2):
+            x = place(10.0 ** exponent)
+            drawing.line([(x, 24), (x, lowest - 24)], "#dddddd")
+            drawing.text(x, lowest - 8, f"10<tspan dy='-5' font-size='9'>{exponent}</tspan>")
+        y = 8
+        for lights in classes:
             y += 26
-            ours = row["technique"].startswith("ours, projected")
-            drawing.text(left - 12, y, row["technique"], "end")
-            drawing.line([(left, y - 4), (place(row["noise_at_equal_time"]), y - 4)], BLUE if ours else ORANGE, 9)
+            drawing.text(column * width + 8, y, f"<tspan font-weight='bold'>{shape} {lights}</tspan>", "start")
+            for row in (row for row in rows if row["lights"] == lights):
+                y += 20
+                colour = BLUE if row["technique"].endswith("nodes") else ORANGE
+                drawing.text(left - 8, y, row["technique"], "end")
+                drawing.line([(left, y - 4), (place(row["noise_at_equal_time"]), y - 4)], colour, 9)
     drawing.write(path)
 
 
