@@ -150,7 +150,7 @@ def draw_maps(path):
 
 def draw_noise(path):
     """Noise at equal time, on a scale of logarithms: spheres on the left, disks on the right."""
-    low, high, names, bars, width = 1e-8, 10.0, 200, 220, 440
+    low, high, names, bars, width = 1e-8, 10.0, 225, 215, 455
     drawing, lowest = None, 0
     for column, shape in enumerate(("spheres", "disks")):
         data = json.loads((ROOT / f"docs/data/round-{shape}.json").read_text(encoding="utf-8"))
@@ -168,7 +168,8 @@ def draw_noise(path):
         for exponent in range(-8, 2):
             x = place(10.0 ** exponent)
             drawing.line([(x, 24), (x, lowest - 24)], "#dddddd")
-            drawing.text(x, lowest - 8, f"10<tspan dy='-5' font-size='9'>{exponent}</tspan>")
+            if exponent % 2 == 0:
+                drawing.text(x, lowest - 8, f"10<tspan dy='-5' font-size='9'>{exponent}</tspan>")
         y = 8
         for lights in classes:
             y += 26
