@@ -84,4 +84,12 @@ private:
 template <class Real, template <class> class Light>
 using ConeProjectedRejectionGamito = ConeRejectionGamito<Real, Light, gamito::ProjectedSolidAngle>;
 
+/// \name Both for disks.
+/// @{
+template <class Real>
+using DiskRejectionGamito = ConeRejectionGamito<Real, Disk>;
+template <class Real>
+using DiskProjectedRejectionGamito = ConeProjectedRejectionGamito<Real, Disk>;
+/// @}
+
 NUSSELT_NAMESPACE_END

@@ -75,5 +75,7 @@ private:
 /// Space, edge cases: those of ConeSolidAngle.
 template <class Real, template <class> class Light>
 using ConeSolidAngleGuillen = SphericalEllipse<Real, Light, SectorTurn>;
+template <class Real>
+using DiskSolidAngleGuillen = ConeSolidAngleGuillen<Real, Disk>;
 
 NUSSELT_NAMESPACE_END
