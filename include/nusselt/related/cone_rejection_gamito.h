@@ -46,7 +46,9 @@ public:
         const Real ahead = dot(s.wi, cone.e3) * (Real(1) / max(cone.c, Real(kFlat)));
         const Vec2<Real> disk{detail::over_positive(dot(s.wi, cone.e1), ahead * cone.a),
                               detail::over_positive(dot(s.wi, cone.e2), ahead * cone.b)};
-        const auto hits = (dot(disk, disk) <= Real(1)) & (rectangle_.measure() > Real(0));
+        const auto within = dot(disk, disk) <= Real(1);
+        const auto exists = rectangle_.measure() > Real(0);
+        const auto hits = within & exists;
         const Real distance = max(dot(s.wi, view_.point(disk, s.wi)), Real(0));
         return {s.wi, select(hits, s.pdf, Real(0)), (view_.inverse_scale * distance) * s.wi};
     }
