@@ -33,6 +33,7 @@ check texts
 rejects 'sed -i "s/\"LineArea\"/\"LineAera\"/" "$registry"' registry "does not contain LineAera"
 rejects 'sed -i "s/\"density\": \"length\",//" "$registry"' registry "LineArea: the field density is missing"
 rejects 'sed -i "s/\"density\": \"length\"/\"densty\": \"length\"/" "$registry"' registry "unknown field densty"
+rejects 'sed -i "/\"file\": \"sampling\/line_area\"/d" "$registry"' registry "LineArea: the field glsl is missing"
 rejects 'sed -i "s/\"light\": \"line\"/\"light\": \"lamp\"/" "$registry"' registry "light must be one of"
 rejects 'sed -i "s/\"inversion\": \"[^\"]*\"/\"inversion\": \"Later.\"/" "$registry"' registry "reason to exempt it"
 rejects 'sed -i "s/\"inversion\":/\"inversoin\":/" "$registry"' registry "inversoin, which is not a suite"
