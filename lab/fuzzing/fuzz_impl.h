@@ -5,6 +5,7 @@
 
 #include "lab/fuzzing/fuzz_kernel.h"
 #include "proof/hostile/contract.h"
+#include "proof/techniques/fine_round_kinds.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace fuzz {
@@ -142,7 +143,8 @@ inline constexpr FuzzTechnique<scalar_t<Real>>
 
 template <class Real>
 inline constexpr auto& kTechniques =
-    kTechniquesOf<Real, hostile::TestedBy<FuzzSuite, hostile::KindsWithBounds<4, 8>>>;
+    kTechniquesOf<Real, hostile::Join<hostile::TestedBy<FuzzSuite, hostile::KindsWithBounds<4, 8>>,
+                                      hostile::FineRoundKinds>>;
 
 template <class Real>
 constexpr FuzzTable<scalar_t<Real>> table() {

@@ -1,5 +1,5 @@
 #pragma once
-/// Techniques for round lights that take kFineConePlaces, for tests. They are not in the registry: they are the techniques of the
+/// Techniques for round lights that take kFineConePlaces, for tests. They are not in the registry: they are techniques of the
 /// registry with another template argument.
 
 #include "proof/techniques/registry.h"
@@ -19,14 +19,8 @@ struct FineRoundOnLobeKind : Coarse {
     using Technique = WithLobe<ConeLtc<Real, Shape, kConeSteps<Real>, kFineConePlaces>>;
 };
 
-struct FineSphereKind : FineRoundKind<SphereProjectedSolidAngleKind, Sphere> {
-    static constexpr const char* kName = "FineSphereProjectedSolidAngle";
-};
 struct FineDiskKind : FineRoundKind<DiskProjectedSolidAngleKind, Disk> {
     static constexpr const char* kName = "FineDiskProjectedSolidAngle";
-};
-struct FineEllipseKind : FineRoundKind<EllipseProjectedSolidAngleKind, Ellipse> {
-    static constexpr const char* kName = "FineEllipseProjectedSolidAngle";
 };
 struct FineEllipsoidKind : FineRoundKind<EllipsoidProjectedSolidAngleKind, Ellipsoid> {
     static constexpr const char* kName = "FineEllipsoidProjectedSolidAngle";
@@ -34,19 +28,13 @@ struct FineEllipsoidKind : FineRoundKind<EllipsoidProjectedSolidAngleKind, Ellip
 struct FineSphereOnLobeKind : FineRoundOnLobeKind<SphereLtcKind, Sphere> {
     static constexpr const char* kName = "FineSphereLtc";
 };
-struct FineDiskOnLobeKind : FineRoundOnLobeKind<DiskLtcKind, Disk> {
-    static constexpr const char* kName = "FineDiskLtc";
-};
 struct FineEllipseOnLobeKind : FineRoundOnLobeKind<EllipseLtcKind, Ellipse> {
     static constexpr const char* kName = "FineEllipseLtc";
 };
-struct FineEllipsoidOnLobeKind : FineRoundOnLobeKind<EllipsoidLtcKind, Ellipsoid> {
-    static constexpr const char* kName = "FineEllipsoidLtc";
-};
 
-using FineRoundKinds = KindList<FineSphereKind, FineDiskKind, FineEllipseKind, FineEllipsoidKind>;
-using FineRoundOnLobeKinds =
-    KindList<FineSphereOnLobeKind, FineDiskOnLobeKind, FineEllipseOnLobeKind, FineEllipsoidOnLobeKind>;
+/// Each shape once: what lies between a cone and its samples does not depend on the shape.
+using FineRoundKinds =
+    KindList<FineDiskKind, FineEllipsoidKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
 
 } // namespace hostile
 NUSSELT_NAMESPACE_END

@@ -12,6 +12,7 @@
 
 #include "contract.h"
 #include "lights.h"
+#include "proof/techniques/fine_round_kinds.h"
 
 namespace nusselt_test {
 namespace {
@@ -106,7 +107,8 @@ private:
 struct PacksSuite {
     static constexpr std::string_view kName = "packs";
 };
-using Types = Instances<TestedBy<PacksSuite, KindsWithBounds<4, 8>>, NativeFloat, NativeDouble>;
+using Types =
+    Instances<Join<TestedBy<PacksSuite, KindsWithBounds<4, 8>>, FineRoundKinds>, NativeFloat, NativeDouble>;
 TYPED_TEST_SUITE(PacksTest, Types, InstanceNames);
 
 TYPED_TEST(PacksTest, LightPerLaneBesideNaN) {
