@@ -44,6 +44,8 @@ inline Ellipse<long double> as_ellipse(const Disk<long double>& light) {
     const auto u = across(light.normal);
     return {light.center, light.radius * u, light.radius * cross(light.normal, u)};
 }
+inline const Ellipse<long double>& as_ellipse(const Ellipse<long double>& light) { return light; }
+inline const Ellipsoid<long double>& as_ellipsoid(const Ellipsoid<long double>& light) { return light; }
 inline Ellipsoid<long double> as_ellipsoid(const Sphere<long double>& light) {
     const long double r = light.radius;
     return {light.center, {{r, 0, 0}, {0, r, 0}, {0, 0, r}}};

@@ -36,20 +36,17 @@ LtcCoefficients<T> lobe_in() {
 }
 
 /// The light in cosine space.
-nusselt::Ellipse<long double> image_of(const nusselt::Ellipse<long double>& light) {
+template <class Light>
+auto image_of(const Light& light) {
     const ReferenceLobe lobe(kLobe);
-    return {lobe.image(light.center), lobe.image(light.u), lobe.image(light.v)};
-}
-nusselt::Ellipsoid<long double> image_of(const nusselt::Ellipsoid<long double>& light) {
-    const ReferenceLobe lobe(kLobe);
-    return {lobe.image(light.center),
-            {lobe.image(light.axis[0]), lobe.image(light.axis[1]), lobe.image(light.axis[2])}};
-}
-nusselt::Ellipse<long double> image_of(const nusselt::Disk<long double>& light) {
-    return image_of(as_ellipse(light));
-}
-nusselt::Ellipsoid<long double> image_of(const nusselt::Sphere<long double>& light) {
-    return image_of(as_ellipsoid(light));
+    if constexpr (requires { as_ellipsoid(light); }) {
+        const auto& [center, axis] = as_ellipsoid(light);
+        return nusselt::Ellipsoid<long double>{
+            lobe.image(center), {lobe.image(axis[0]), lobe.image(axis[1]), lobe.image(axis[2])}};
+    } else {
+        const auto& [center, u, v] = as_ellipse(light);
+        return nusselt::Ellipse<long double>{lobe.image(center), lobe.image(u), lobe.image(v)};
+    }
 }
 
 /// \name Techniques: how they are made, and over which directions their densities integrate to one.
