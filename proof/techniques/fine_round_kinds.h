@@ -33,8 +33,7 @@ struct FineEllipseOnLobeKind : FineRoundOnLobeKind<EllipseLtcKind, Ellipse> {
 };
 
 /// Each shape once: what lies between a cone and its samples does not depend on the shape.
-using FineRoundKinds =
-    KindList<FineDiskKind, FineEllipsoidKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
+using FineRoundKinds = KindList<FineDiskKind, FineEllipsoidKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
 
 } // namespace hostile
 NUSSELT_NAMESPACE_END
