@@ -24,7 +24,7 @@ bin/python -m pip show -q nusselt
 
 # The sources alone say what they lack.
 message=$(PYTHONPATH="$root/python" "$python" -c "import nusselt" 2>&1) && exit 1
-[[ $message == *"/python/nusselt has no compiled module for Python 3."* ]] || { echo "$message"; exit 1; }
+[[ $message == *"python/nusselt has no compiled module for Python 3."* ]] || { echo "$message"; exit 1; }
 
 # Two wheels have the same bits, without what else lies in the folder of the build.
 touch "$build/python/nusselt/stale.py"

@@ -12,7 +12,7 @@ namespace {
 // GNU parallel would kill tasks 350 ms after Ctrl-C, while they still write their checkpoints.
 constexpr const char* kStart = R"sh(#!/bin/sh
 # Does the job with GNU parallel: on the processors of this machine, or on others, which see the same files, with
-# PARALLEL='--sshloginfile /PATH/TO/FILE' in the environment.
+# PARALLEL='--sshloginfile FILE' in the environment, FILE being an absolute path.
 set -u
 cd "$(dirname "$0")" || exit 1
 if ! parallel --version 2>/dev/null | grep -q GNU; then
@@ -62,7 +62,8 @@ std::vector<JobFile> files(const Job& job) {
 
 extern const Engine kParallel;
 const Engine kParallel = {
-    "parallel", "GNU parallel on this machine, or on those of PARALLEL='--sshloginfile /PATH/TO/FILE'", files,
+    "parallel",
+    "GNU parallel on this machine, or on those of PARALLEL='--sshloginfile FILE', an absolute path", files,
     ""};
 
 } // namespace nusselt::app
