@@ -9,6 +9,7 @@
 #include "render_cpu/backend.h"
 #include "render_vulkan/backend.h"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,9 +21,13 @@ using render_vulkan::VulkanBackend;
 
 class GpuBackend : public parity::GpuTest {
 protected:
-    static VulkanBackend make_backend() {
-        return VulkanBackend({.validation = gpu::Validation::on}, ShadowRays::bvh);
+    /// Created at the first call. Its device keeps the shaders, whose compilation takes longer than the tests.
+    static const VulkanBackend& backend() {
+        if (!backend_)
+            backend_.emplace(gpu::DeviceOptions{.validation = gpu::Validation::on}, ShadowRays::bvh);
+        return *backend_;
     }
+    static void TearDownTestSuite() { backend_.reset(); }
 
     static scene::Scene lit_floor() {
         scene::Scene scene = render_test::make_floor(40);
@@ -32,15 +37,16 @@ protected:
         render_test::set_radius(scene);
         return scene;
     }
+
+private:
+    static inline std::optional<VulkanBackend> backend_;
 };
 
-TEST_F(GpuBackend, FulfilsTheContract) {
-    render_test::expect_backend_contract(make_backend(), lit_floor(), {});
-}
+TEST_F(GpuBackend, FulfilsTheContract) { render_test::expect_backend_contract(backend(), lit_floor(), {}); }
 
 TEST_F(GpuBackend, RendersWhatTheCpuRenders) {
     const scene::Scene scene = lit_floor();
-    const VulkanBackend gpu = make_backend();
+    const VulkanBackend& gpu = backend();
     const render_cpu::CpuBackend cpu(base::choose_isa(), 2);
     EXPECT_NE(gpu.name(), cpu.name());
     const image::Image on_gpu = render::render(gpu, scene, {}).image;
@@ -48,17 +54,16 @@ TEST_F(GpuBackend, RendersWhatTheCpuRenders) {
 }
 
 TEST_F(GpuBackend, NamesSettingsThatItDoesNotSupport) {
-    const VulkanBackend backend = make_backend();
     render::RenderSettings lines;
     lines.light_samples = render::LightSamples::lines;
-    EXPECT_EQ(backend.why_unsupported(lines), "--light-samples lines is not supported on GPUs");
+    EXPECT_EQ(backend().why_unsupported(lines), "--light-samples lines is not supported on GPUs");
     render::RenderSettings layers;
     layers.layers = {render::LayerKind::normal};
-    EXPECT_EQ(backend.why_unsupported(layers), "layer normal is not supported on GPUs");
+    EXPECT_EQ(backend().why_unsupported(layers), "layer normal is not supported on GPUs");
     render::RenderSettings part;
     part.part = {1, 2};
-    EXPECT_EQ(backend.why_unsupported(part), "--part is not supported on GPUs");
-    EXPECT_THROW(static_cast<void>(render::render(backend, lit_floor(), part)), std::invalid_argument);
+    EXPECT_EQ(backend().why_unsupported(part), "--part is not supported on GPUs");
+    EXPECT_THROW(static_cast<void>(render::render(backend(), lit_floor(), part)), std::invalid_argument);
 }
 
 TEST_F(GpuBackend, KnowsTheShareOfAStoppedFrame) {
@@ -70,7 +75,7 @@ TEST_F(GpuBackend, KnowsTheShareOfAStoppedFrame) {
     monitor.cancel = &cancel;
     monitor.progress = [&](double) { cancel = true; };
     render::Frame frame = render::make_frame(scene, settings);
-    make_backend().prepare(scene)->render_into(frame, settings, monitor);
+    backend().prepare(scene)->render_into(frame, settings, monitor);
     EXPECT_EQ(finished_fraction(frame), 0.25);
 }
 

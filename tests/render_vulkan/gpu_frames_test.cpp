@@ -141,7 +141,8 @@ TEST_F(GpuFrames, ComparesStrategiesAtEqualSamples) {
 TEST_F(GpuFrames, CountsTheSameRaysWithoutTracingThem) {
     const scene::Scene scene = load_small("cornell-panel.pbrt");
     const DeviceScene traced(device(), scene, ShadowRays::bvh), untraced(device(), scene, ShadowRays::none);
-    render::RenderSettings settings;
+    // The first test has compiled the shader of these settings.
+    render::RenderSettings settings = lab::strategies_pair().baseline;
     settings.samples = 2;
     settings.camera_rays = 1;
     const GpuFrame frames[] = {{&traced, settings}, {&untraced, settings}};

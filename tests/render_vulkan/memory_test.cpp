@@ -25,43 +25,49 @@ using render_vulkan::DeviceScene;
 using render_vulkan::ShadowRays;
 using render_vulkan::VulkanRenderer;
 
-/// A device whose driver keeps its objects where they are counted.
+/// A device whose driver keeps its objects where they are counted. It is that of all tests, as it keeps what was compiled.
 class Memory : public parity::GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
         if (HasFatalFailure() || IsSkipped()) return;
-        counted_.emplace(
-            gpu::DeviceOptions{.validation = gpu::Validation::on, .allocator = allocator_.callbacks()});
-        const std::size_t before = allocator_.live();
+        if (!counted_)
+            counted_.emplace(
+                gpu::DeviceOptions{.validation = gpu::Validation::on, .allocator = allocator().callbacks()});
+        const std::size_t before = allocator().live();
         const gpu::Buffer buffer(counted(), 64, gpu::Residence::device_local);
-        if (allocator_.live() == before) GTEST_SKIP() << "the driver keeps its objects elsewhere";
+        if (allocator().live() == before) GTEST_SKIP() << "the driver keeps its objects elsewhere";
     }
 
     void TearDown() override {
         if (counted_)
             for (const std::string& message : counted_->take_validation_messages()) ADD_FAILURE() << message;
-        counted_.reset();
-        EXPECT_EQ(allocator_.live(), 0u);
         GpuTest::TearDown();
+    }
+
+    static void TearDownTestSuite() {
+        counted_.reset();
+        EXPECT_EQ(allocator().live(), 0u);
     }
 
     const gpu::Device& counted() const { return *counted_; }
     /// The live memory once all work has ended: threads of drivers clean up after they have reported the end.
-    std::size_t settled() const {
-        std::size_t live = allocator_.live();
+    static std::size_t settled() {
+        std::size_t live = allocator().live();
         for (int unchanged = 0; unchanged < 50; ++unchanged) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            if (allocator_.live() != live) unchanged = 0;
-            live = allocator_.live();
+            if (allocator().live() != live) unchanged = 0;
+            live = allocator().live();
         }
         return live;
     }
-    DebugAllocator& allocator() { return allocator_; }
+    static DebugAllocator& allocator() {
+        static DebugAllocator shared;
+        return shared;
+    }
 
 private:
-    DebugAllocator allocator_;
-    std::optional<gpu::Device> counted_;
+    static inline std::optional<gpu::Device> counted_;
 };
 
 TEST_F(Memory, IsCounted) {

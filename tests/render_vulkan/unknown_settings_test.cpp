@@ -54,7 +54,11 @@ protected:
     }
 
     std::vector<std::uint32_t> known_constants() {
-        return render_vulkan::shading_constants({}, scene().kinds());
+        // Those whose shaders drivers compile in the least time.
+        render::RenderSettings settings;
+        settings.technique = render::Technique::area;
+        settings.brdf = render::BrdfChoice::lambert;
+        return render_vulkan::shading_constants(settings, scene().kinds());
     }
 
 private:
