@@ -70,6 +70,14 @@ private:
     static inline std::optional<gpu::Device> counted_;
 };
 
+/// Those whose shader drivers compile in the least time.
+render::RenderSettings quick_settings() {
+    render::RenderSettings settings;
+    settings.technique = render::Technique::area;
+    settings.brdf = render::BrdfChoice::lambert;
+    return settings;
+}
+
 TEST_F(Memory, IsCounted) {
     const std::size_t before = allocator().live();
     {
@@ -86,8 +94,7 @@ TEST_F(Memory, IsGivenBackByRenderers) {
     const auto render = [&](ShadowRays way) {
         const std::size_t before = settled();
         VulkanRenderer renderer(counted(), scene, way);
-        render::RenderSettings settings;
-        settings.technique = render::Technique::area;
+        render::RenderSettings settings = quick_settings();
         static_cast<void>(renderer.render(settings));
         settings.technique = render::Technique::ltc_analytic;
         static_cast<void>(renderer.render(settings));
@@ -103,8 +110,7 @@ TEST_F(Memory, IsGivenBackByRenderers) {
 
 TEST_F(Memory, StaysTheSameOverAThousandFrames) {
     const DeviceScene scene(counted(), make_rich_scene(8, 8), ShadowRays::bvh);
-    render::RenderSettings settings;
-    settings.technique = render::Technique::area;
+    render::RenderSettings settings = quick_settings();
     settings.samples = 1000;
     Accumulator image(scene, settings);
     const render_vulkan::FrameRecords frames(scene.film(), settings);
