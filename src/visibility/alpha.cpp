@@ -1,6 +1,10 @@
 #include "visibility/alpha.h"
 
+#include <nusselt/random/pcg.h>
+#include <nusselt/random/unit_interval.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace nusselt::visibility {
@@ -60,16 +64,28 @@ Presence presence_of(const scene::Material& material) {
 
 float alpha_at(const scene::Scene& scene, std::uint32_t triangle, float u, float v) {
     const scene::Material& material = scene.materials[scene.triangle_material[triangle]];
-    const scene::TextureUse& use = material.alpha_texture;
-    if (use.texture < 0) return material.alpha;
+    if (material.alpha_texture.texture < 0) return material.alpha;
     const auto& vertex = scene.triangles[triangle].vertex;
     const scene::Float2& a = scene.uvs[vertex[0]];
     const scene::Float2& b = scene.uvs[vertex[1]];
     const scene::Float2& c = scene.uvs[vertex[2]];
-    const scene::Float2 uv = {a.x + u * (b.x - a.x) + v * (c.x - a.x),
-                              a.y + u * (b.y - a.y) + v * (c.y - a.y)};
+    return alpha_at(scene, material,
+                    {a.x + u * (b.x - a.x) + v * (c.x - a.x), a.y + u * (b.y - a.y) + v * (c.y - a.y)});
+}
+
+float alpha_at(const scene::Scene& scene, const scene::Material& material, const scene::Float2& uv) {
+    const scene::TextureUse& use = material.alpha_texture;
+    if (use.texture < 0) return material.alpha;
     return material.alpha * look_up(scene.textures[static_cast<std::size_t>(use.texture)],
                                     {use.scale.x * uv.x + use.offset.x, use.scale.y * uv.y + use.offset.y});
+}
+
+float random_of_hit(const scene::Float3& origin, const scene::Float3& direction, std::uint32_t triangle,
+                    std::uint32_t instance) {
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const UInt4 place = pcg4d({bits(origin.x), bits(origin.y), bits(origin.z), triangle});
+    const UInt4 way = {bits(direction.x), bits(direction.y), bits(direction.z), instance};
+    return to_unit<float>(pcg4d({place.x ^ way.x, place.y ^ way.y, place.z ^ way.z, place.w ^ way.w}).x);
 }
 
 } // namespace nusselt::visibility

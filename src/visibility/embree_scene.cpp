@@ -4,13 +4,9 @@
 #include "visibility/alpha.h"
 #include "visibility/embree_device.h"
 #include "visibility/embree_packets.h"
-#include "visibility/round_occluders.h"
+#include "visibility/round_surfaces.h"
 #include "visibility/scene_parts.h"
 
-#include <nusselt/random/pcg.h>
-#include <nusselt/random/unit_interval.h>
-
-#include <bit>
 #include <cstring>
 
 namespace nusselt::visibility {
@@ -33,16 +29,6 @@ using SceneHandle = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Buffer = std::unique_ptr<RTCBufferTy, BufferDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-/// A number in [0, 1) that depends only on the ray and the triangle: each hit of a ray gets its own.
-float random_of(RTCRayN* ray, RTCHitN* hit, unsigned n, unsigned i, std::uint32_t triangle) {
-    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    const UInt4 place = pcg4d({bits(RTCRayN_org_x(ray, n, i)), bits(RTCRayN_org_y(ray, n, i)),
-                               bits(RTCRayN_org_z(ray, n, i)), triangle});
-    const UInt4 way = {bits(RTCRayN_dir_x(ray, n, i)), bits(RTCRayN_dir_y(ray, n, i)),
-                       bits(RTCRayN_dir_z(ray, n, i)), RTCHitN_instID(hit, n, i, 0)};
-    return to_unit<float>(pcg4d({place.x ^ way.x, place.y ^ way.y, place.z ^ way.z, place.w ^ way.w}).x);
-}
-
 /// Lets rays pass surfaces that are partly there. Called by Embree for hits on kPartialGeometry of a part.
 void filter_hits(const RTCFilterFunctionNArguments* arguments) {
     const auto& part = *static_cast<const ScenePart*>(arguments->geometryUserPtr);
@@ -50,9 +36,14 @@ void filter_hits(const RTCFilterFunctionNArguments* arguments) {
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
         RTCHitN* hit = arguments->hit;
+        RTCRayN* ray = arguments->ray;
         const std::uint32_t triangle = part.partial[RTCHitN_primID(hit, n, i)];
         const float alpha = alpha_at(*part.scene, triangle, RTCHitN_u(hit, n, i), RTCHitN_v(hit, n, i));
-        if (!(random_of(arguments->ray, hit, n, i, triangle) < alpha)) arguments->valid[i] = 0;
+        const float random =
+            random_of_hit({RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)},
+                          {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)},
+                          triangle, RTCHitN_instID(hit, n, i, 0));
+        if (!(random < alpha)) arguments->valid[i] = 0;
     }
 }
 
@@ -115,7 +106,18 @@ void copy_places(const ClosestHitQuery<N>& query, HitPacket<N>& hits) {
     std::memcpy(hits.t, query.packet.ray.tfar, sizeof hits.t);
 }
 
-/// Intersects scenes without instances and without partially opaque surfaces.
+template <class Hits, int N>
+void copy_round_hit(const RoundSurface& surface, const Hits& hit, int i, HitPacket<N>& hits) {
+    const float point[] = {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
+    for (int k = 0; k < 3; ++k) hits.unit[k][i] = point[k];
+    const scene::Float2 uv = texture_coordinates(surface, {point[0], point[1], point[2]});
+    hits.u[i] = uv.x;
+    hits.v[i] = uv.y;
+    hits.triangle[i] = static_cast<std::int32_t>(surface.triangle);
+    hits.round[i] = static_cast<std::int32_t>(surface.light);
+}
+
+/// Intersects scenes without instances, partially opaque surfaces and round lights.
 template <int N>
 void intersect_plain(const void* context, std::uint32_t active, const RayPacket<N>& rays,
                      HitPacket<N>& hits) {
@@ -128,7 +130,7 @@ void intersect_plain(const void* context, std::uint32_t active, const RayPacket<
         const auto primitive = static_cast<std::int32_t>(hit.primID[i]);
         const unsigned geometry = hit.geomID[i];
         hits.triangle[i] = geometry == kFullGeometry ? primitive : -1;
-        hits.instance[i] = -1;
+        hits.instance[i] = hits.round[i] = -1;
         hits.light[i] = geometry == kLightGeometry ? scene.light_of(hit.primID[i]) : -1;
     }
 }
@@ -141,13 +143,17 @@ void intersect(const void* context, std::uint32_t active, const RayPacket<N>& ra
     copy_places(query, hits);
     const auto& hit = query.packet.hit;
     for (int i = 0; i < N; ++i) {
-        hits.triangle[i] = hits.instance[i] = hits.light[i] = -1;
+        hits.triangle[i] = hits.instance[i] = hits.light[i] = hits.round[i] = -1;
         const unsigned geometry = hit.geomID[i];
         const unsigned primitive = hit.primID[i];
         const unsigned instance = hit.instID[0][i];
         if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
         if (geometry == kLightGeometry) {
             hits.light[i] = scene.light_of(primitive);
+            continue;
+        }
+        if (geometry == kRoundGeometry && instance == RTC_INVALID_GEOMETRY_ID) {
+            copy_round_hit(scene.round_surfaces[primitive], hit, i, hits);
             continue;
         }
         const ScenePart& part = scene.part_of(instance);
@@ -185,7 +191,6 @@ struct EmbreeScene::State {
     Buffer positions;
     std::vector<SceneHandle> objects;
     SceneHandle world, seen;
-    RoundOccluders round_lights;
     TracedScene traced;
 };
 
@@ -194,8 +199,7 @@ EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_t
     traced.scene = &scene;
     // Filters point to the parts: these must stay where they are.
     traced.parts = make_parts(scene);
-    round_lights = make_round_occluders(scene);
-    separate_seen(traced.parts[0], round_lights.triangles);
+    traced.round_surfaces = make_round_surfaces(scene);
     for (std::size_t i = 1; i < traced.parts.size(); ++i) {
         objects.push_back(make_scene(device.get(), scene.triangles.size()));
         attach_part(objects.back().get(), traced.parts[i]);
@@ -235,34 +239,25 @@ void EmbreeScene::State::attach_part(RTCScene target, const ScenePart& part) {
 }
 
 void EmbreeScene::State::attach_round_lights() {
-    if (round_lights.lights.empty()) return;
+    if (traced.round_surfaces.empty()) return;
     const Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-    set_occluders(geometry.get(), round_lights.lights);
+    set_surfaces(geometry.get(), traced.round_surfaces);
     attach(device.get(), world.get(), geometry.get(), kRoundGeometry);
 }
 
 void EmbreeScene::State::make_seen() {
     scene::LightMesh mesh = make_light_mesh(scene);
-    const std::vector<std::uint32_t>& round = traced.parts[0].seen;
-    if (mesh.triangles.empty() && round.empty()) return;
-    seen = make_scene(device.get(), mesh.triangles.size() + round.size());
-    if (!mesh.triangles.empty()) {
-        const Buffer mesh_positions = make_position_buffer(device.get(), mesh.positions);
-        const Geometry geometry =
-            make_triangle_geometry(device.get(), mesh_positions.get(), mesh.positions.size());
-        void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                sizeof(scene::Triangle), mesh.triangles.size());
-        check_for_error(device.get());
-        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
-        attach(device.get(), seen.get(), geometry.get(), kLightGeometry);
-        traced.lights = std::move(mesh.lights);
-    }
-    if (!round.empty()) {
-        const Geometry geometry =
-            make_triangle_geometry(device.get(), positions.get(), scene.positions.size());
-        copy_indices(device.get(), geometry.get(), scene.triangles, round);
-        attach(device.get(), seen.get(), geometry.get(), kSeenGeometry);
-    }
+    if (mesh.triangles.empty()) return;
+    seen = make_scene(device.get(), mesh.triangles.size());
+    const Buffer mesh_positions = make_position_buffer(device.get(), mesh.positions);
+    const Geometry geometry =
+        make_triangle_geometry(device.get(), mesh_positions.get(), mesh.positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(scene::Triangle), mesh.triangles.size());
+    check_for_error(device.get());
+    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(scene::Triangle));
+    attach(device.get(), seen.get(), geometry.get(), kLightGeometry);
+    traced.lights = std::move(mesh.lights);
     commit(device.get(), seen.get());
     traced.seen = seen.get();
 }

@@ -12,8 +12,8 @@ namespace nusselt::visibility {
 /// not NaN and not negative. Embree of Debian aborts the process otherwise.
 inline constexpr float kLargestRayCoordinate = 1e18f;
 
-/// The bounding volume hierarchy of a scene. Shadow rays see all triangles (emitters included), camera rays
-/// also the lights that are no surfaces. Surfaces with an alpha below 1 are there with that probability, independently for
+/// The bounding volume hierarchy of a scene. Shadow rays see all surfaces (emitters included), camera rays
+/// also the lights that are no surfaces. Both meet the exact shape of round lights, in place of their triangles. Surfaces with an alpha below 1 are there with that probability, independently for
 /// each ray and triangle: what happens is a hash of both. Immutable, usable from several threads at once.
 class EmbreeScene {
 public:

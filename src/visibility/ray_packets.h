@@ -15,17 +15,22 @@ struct RayPacket {
     float t_far[N];
 };
 
-/// The closest hits of N rays. A ray meets a triangle of the scene, a light that is no
-/// surface, or neither.
+/// The closest hits of N rays. A ray meets a triangle of the scene, the exact surface of a round light, a light that is no
+/// surface, or nothing.
 template <int N>
 struct HitPacket {
-    std::int32_t triangle[N]; ///< index into Scene::triangles, -1 for none
+    std::int32_t triangle[N]; ///< index into Scene::triangles, -1 for none; for round lights one of theirs
     std::int32_t instance[N]; ///< index into Scene::instances that the triangle is part of, -1 for none
     std::int32_t light[N];    ///< that is no surface: its number among all lights of the scene, -1 for none
-    /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). Meaningless without a triangle.
+    std::int32_t round[N];    ///< round light: its number among all lights of the scene, -1 for none
+    /// Barycentric coordinates: the hit is v0 + u (v1 - v0) + v (v2 - v0). For round lights texture coordinates. Meaningless
+    /// without a triangle.
     alignas(4 * N) float u[N];
     float v[N];
     float t[N]; ///< of the hit along the ray; meaningless without one
+    float unit
+        [3]
+        [N]; ///< the hit in the coordinates of a round light, see scene::RoundLight; meaningless without one
 };
 
 /// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose

@@ -1,11 +1,9 @@
 #include "visibility/scene_parts.h"
 
+#include "scene/model/lights/round/round_axes.h"
 #include "visibility/alpha.h"
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
-#include <utility>
 
 namespace nusselt::visibility {
 
@@ -17,12 +15,17 @@ bool is_always_there(const scene::Material& material) { return presence_of(mater
 ScenePart make_part(const scene::Scene& scene, std::uint32_t first_triangle, std::uint32_t triangle_count) {
     ScenePart part{&scene, first_triangle, triangle_count, true};
     const std::uint32_t end = first_triangle + triangle_count;
-    const auto is_full = [&](std::uint32_t material) { return is_always_there(scene.materials[material]); };
-    const auto materials = scene.triangle_material.begin();
-    part.is_full = std::all_of(materials + first_triangle, materials + end, is_full);
+    const auto presence_in_part = [&](std::uint32_t triangle) {
+        return round_light_of(scene, triangle) < 0
+                   ? presence_of(scene.materials[scene.triangle_material[triangle]])
+                   : Presence::none;
+    };
+    std::uint32_t full_end = first_triangle;
+    while (full_end < end && presence_in_part(full_end) == Presence::full) ++full_end;
+    part.is_full = full_end == end;
     if (part.is_full) return part;
     for (std::uint32_t triangle = first_triangle; triangle < end; ++triangle) {
-        const Presence presence = presence_of(scene.materials[scene.triangle_material[triangle]]);
+        const Presence presence = presence_in_part(triangle);
         if (presence == Presence::full) part.full.push_back(triangle);
         if (presence == Presence::partial) part.partial.push_back(triangle);
     }
@@ -31,22 +34,9 @@ ScenePart make_part(const scene::Scene& scene, std::uint32_t first_triangle, std
 
 } // namespace
 
-void separate_seen(ScenePart& part, const std::vector<std::uint32_t>& triangles) {
-    if (triangles.empty()) return;
-    std::vector<std::uint32_t> all = std::move(part.full);
-    if (part.is_full) {
-        all.resize(part.triangle_count);
-        std::iota(all.begin(), all.end(), part.first_triangle);
-    }
-    part.full.clear();
-    std::set_difference(all.begin(), all.end(), triangles.begin(), triangles.end(),
-                        std::back_inserter(part.full));
-    part.is_full = false;
-    part.seen = triangles;
-}
-
 std::vector<ScenePart> make_parts(const scene::Scene& scene) {
-    const bool all_full = std::all_of(scene.materials.begin(), scene.materials.end(), is_always_there);
+    const bool all_full = scene.lights.of<scene::RoundLight>().empty() &&
+                          std::all_of(scene.materials.begin(), scene.materials.end(), is_always_there);
     std::vector<ScenePart> parts;
     const auto add = [&](std::uint32_t first_triangle, std::uint32_t triangle_count) {
         // Most scenes need no look at their triangles.

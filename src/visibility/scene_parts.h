@@ -3,6 +3,7 @@
 
 #include "scene/model/scene.h"
 #include "visibility/embree_api.h"
+#include "visibility/round_surfaces.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,33 +13,28 @@ namespace nusselt::visibility {
 // Numbers of geometries in the world and in objects.
 inline constexpr unsigned kFullGeometry = 0;
 inline constexpr unsigned kPartialGeometry = 1; ///< surfaces with an alpha below 1: hits pass a filter
-inline constexpr unsigned kRoundGeometry = 2;   ///< exact round lights, which camera rays pass
+inline constexpr unsigned kRoundGeometry = 2;   ///< round lights, only in the world
 inline constexpr unsigned kFirstInstance = 3;
-// Numbers of geometries that only camera rays meet. They differ from those of the world.
-inline constexpr unsigned kLightGeometry = 3; ///< lights that are no surfaces
-inline constexpr unsigned kSeenGeometry = 4;  ///< triangles of round lights
+// The geometry that only camera rays meet: lights that are no surfaces. Its number differs from those of the world.
+inline constexpr unsigned kLightGeometry = 3;
 
-/// The triangles of the world or of an object.
+/// The triangles of the world or of an object, without those of round lights.
 struct ScenePart {
     const scene::Scene* scene = nullptr;
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
     /// Whether all triangles of the range make up kFullGeometry in their order; else the lists say which do.
     bool is_full = true;
-    std::vector<std::uint32_t> full = {}, partial = {}, seen = {}; ///< indices into Scene::triangles
+    std::vector<std::uint32_t> full = {}, partial = {}; ///< indices into Scene::triangles
 
     std::uint32_t triangle_of(unsigned geometry, unsigned primitive) const {
         if (geometry == kPartialGeometry) return partial[primitive];
-        if (geometry == kSeenGeometry) return seen[primitive];
         return is_full ? first_triangle + primitive : full[primitive];
     }
 };
 
 /// The world, then the objects. \param scene must outlive the result
 std::vector<ScenePart> make_parts(const scene::Scene& scene);
-
-/// Moves triangles that are always there to kSeenGeometry. \param triangles in ascending order
-void separate_seen(ScenePart& part, const std::vector<std::uint32_t>& triangles);
 
 /// The target of RayTracer::context of EmbreeScene::tracer().
 struct TracedScene {
@@ -48,7 +44,8 @@ struct TracedScene {
     RTCScene seen = nullptr;
     const scene::Scene* scene = nullptr;
     std::vector<ScenePart> parts;
-    std::vector<std::uint32_t> lights; ///< of each triangle of kLightGeometry: see scene::LightMesh
+    std::vector<RoundSurface> round_surfaces; ///< the primitives of kRoundGeometry
+    std::vector<std::uint32_t> lights;        ///< of each triangle of kLightGeometry: see scene::LightMesh
 
     std::int32_t light_of(unsigned primitive) const { return static_cast<std::int32_t>(lights[primitive]); }
     /// \param instance RTC_INVALID_GEOMETRY_ID for hits on the world

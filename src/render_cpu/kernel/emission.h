@@ -4,17 +4,10 @@
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/camera_packet.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/light_sets.h"
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
-
-/// The set that contains a light. \param number among all lights of the scene
-inline const render_cpu::LightSet& set_of(const render_cpu::KernelScene& scene,
-                                          std::int32_t number) noexcept {
-    const render_cpu::LightSet* set = scene.light_sets;
-    while (number >= set->first + set->count) ++set;
-    return *set;
-}
 
 /// Number of the light that a ray hits, -1 for none.
 inline std::int32_t light_of_hit(const render_cpu::KernelScene& scene,

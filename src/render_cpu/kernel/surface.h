@@ -5,6 +5,7 @@
 #include "render_cpu/kernel.h"
 #include "render_cpu/kernel/instances.h"
 #include "render_cpu/kernel/lanes.h"
+#include "render_cpu/kernel/round_points.h"
 #include "render_cpu/kernel/single_lane.h"
 #include "render_cpu/kernel/texture.h"
 
@@ -57,6 +58,8 @@ struct Interpolation {
     Indices vertex[3];
     Real u, v;
     LaneMask active;
+    LaneMask
+        is_round; ///< round lights, where u and v are the texture coordinates, and edges the derivatives by them
 
     Vector vectors(const scene::Float3* attribute) const noexcept {
         const float* rows = &attribute->x;
@@ -66,25 +69,30 @@ struct Interpolation {
         return a + u * (b - a) + v * (c - a);
     }
 
-    Real column(const scene::Float2* attribute, int index) const noexcept {
-        const float* rows = &attribute->x;
+    /// A texture coordinate.
+    Real uv(const scene::Float2* uvs, int index) const noexcept {
+        const float* rows = &uvs->x;
         const Real a = gather_column(rows, 2, index, vertex[0], active);
         const Real b = gather_column(rows, 2, index, vertex[1], active);
         const Real c = gather_column(rows, 2, index, vertex[2], active);
-        return a + u * (b - a) + v * (c - a);
+        return select(is_round, index == 0 ? u : v, a + u * (b - a) + v * (c - a));
     }
 
-    /// Differences of an attribute between the second and the third vertex and the first.
-    Vec2<Real> differences(const scene::Float2* attribute, int index) const noexcept {
-        const float* rows = &attribute->x;
+    /// Differences of a texture coordinate between the second and the third vertex and the first.
+    Vec2<Real> uv_differences(const scene::Float2* uvs, int index) const noexcept {
+        const float* rows = &uvs->x;
         const Real a = gather_column(rows, 2, index, vertex[0], active);
-        return {gather_column(rows, 2, index, vertex[1], active) - a,
-                gather_column(rows, 2, index, vertex[2], active) - a};
+        const auto to = [&](int corner) {
+            const Real difference = gather_column(rows, 2, index, vertex[corner], active) - a;
+            return select(is_round, Real(corner == index + 1 ? 1.0f : 0.0f), difference);
+        };
+        return {to(1), to(2)};
     }
 };
 
 inline Interpolation make_interpolation(const render_cpu::KernelScene& scene,
-                                        const visibility::HitPacket<kLanes>& hits, LaneMask active) noexcept {
+                                        const visibility::HitPacket<kLanes>& hits, LaneMask active,
+                                        LaneMask is_round) noexcept {
     Interpolation result;
     for (int i = 0; i < kLanes; ++i) {
         const std::int32_t triangle = hits.triangle[i] < 0 ? 0 : hits.triangle[i];
@@ -94,6 +102,7 @@ inline Interpolation make_interpolation(const render_cpu::KernelScene& scene,
     result.u = Real::load(hits.u);
     result.v = Real::load(hits.v);
     result.active = active;
+    result.is_round = is_round;
     return result;
 }
 
@@ -125,7 +134,7 @@ inline Tangents position_derivatives(const Vec2<Real>& du, const Vec2<Real>& dv,
     return {dv.y * e1 - dv.x * e2, du.x * e2 - du.y * e1, dot(n, cross(e1, e2))};
 }
 
-/// The tangents that pbrt v3 uses instead on meshes with normals. They are orthonormal in object space, and both are
+/// The tangents that pbrt v3 uses instead on meshes with normals, unlike on spheres and disks. They are orthonormal in object space, and both are
 /// reversed.
 /// \param metric the derivatives, which the other lanes keep
 inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
@@ -150,7 +159,7 @@ inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interp
         u = transform.vector(u);
         v = transform.vector(v);
     }
-    const auto is_changed = is_in_uv & (dot(normal, normal) > Real(0.5f));
+    const auto is_changed = is_in_uv & !interpolation.is_round & (dot(normal, normal) > Real(0.5f));
     return {select(is_changed, u, metric.u), select(is_changed, v, metric.v),
             select(is_changed, dot(n, cross(u, v)), metric.volume)};
 }
@@ -163,8 +172,8 @@ inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Inter
                                const Vector& e1, const Vector& e2, const Vector& n) noexcept {
     using render_cpu::MaterialTextures;
     const LaneMask active = interpolation.active;
-    const Vec2<Real> du = interpolation.differences(scene.uvs, 0);
-    const Vec2<Real> dv = interpolation.differences(scene.uvs, 1);
+    const Vec2<Real> du = interpolation.uv_differences(scene.uvs, 0);
+    const Vec2<Real> dv = interpolation.uv_differences(scene.uvs, 1);
     const Real determinant = du.x * dv.y - dv.x * du.y;
     const Tangents metric = position_derivatives(du, dv, e1, e2, n);
     // Without texture coordinates, the determinant is 0. NaN fails the second comparison.
@@ -287,11 +296,12 @@ make_glossy(const render_cpu::KernelScene& scene, const MaterialLanes& material,
             fit.albedo};
 }
 
-/// Makes the shading points for the active lanes that hit a triangle.
+/// Makes the shading points for the active lanes that hit a surface.
 /// \param wo unit direction to the eye, world space
 inline Surface make_surface(const render_cpu::KernelScene& scene, const visibility::HitPacket<kLanes>& hits,
                             LaneMask active, const Vector& wo) noexcept {
-    const Interpolation interpolation = make_interpolation(scene, hits, active);
+    const RoundPoints round = round_points(scene, hits);
+    const Interpolation interpolation = make_interpolation(scene, hits, active, round.mask);
     const float* positions = &scene.positions->x;
     const Vector v0 = gather_vector(positions, 3, 0, interpolation.vertex[0], active);
     Vector e1 = gather_vector(positions, 3, 0, interpolation.vertex[1], active) - v0;
@@ -309,6 +319,13 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
 
     Vector normal = normalize(cross(e1, e2));
     if (any(instances.mask)) normal = WorldFromObject(scene, instances).front(normal);
+    if (any(round.mask)) {
+        position = select(round.mask, round.position, position);
+        coordinate = select(round.mask, round.coordinate, coordinate);
+        e1 = select(round.mask, round.along_u, e1);
+        e2 = select(round.mask, round.along_v, e2);
+        normal = select(round.mask, normalize(round.normal), normal);
+    }
     const Vector geometric_normal = copysign(Real(1), dot(normal, wo)) * normal;
 
     Indices material;
@@ -320,10 +337,11 @@ inline Surface make_surface(const render_cpu::KernelScene& scene, const visibili
     }
     const std::uint32_t kinds = texture_kinds(scene, material);
     Vec2<Real> uv{Real(0), Real(0)};
-    if (kinds != 0) uv = {interpolation.column(scene.uvs, 0), interpolation.column(scene.uvs, 1)};
+    if (kinds != 0) uv = {interpolation.uv(scene.uvs, 0), interpolation.uv(scene.uvs, 1)};
 
     const Vector interpolated = interpolated_normal(scene, interpolation, instances);
-    Vector n = select(dot(interpolated, interpolated) > Real(0.5f), interpolated, normal);
+    const auto is_smooth = (dot(interpolated, interpolated) > Real(0.5f)) & !round.mask;
+    Vector n = select(is_smooth, interpolated, normal);
     const Real eye_side = copysign(Real(1), dot(n, geometric_normal));
     if ((kinds & (render_cpu::kNormalTexture | render_cpu::kBumpTexture)) != 0)
         n = perturbed_normal(scene, interpolation, instances, material, uv, e1, e2, n);

@@ -3,6 +3,7 @@
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/lights/round/round_form.h"
+#include "scene/model/lights/round/round_shell.h"
 
 namespace nusselt::render_vulkan {
 
@@ -29,6 +30,10 @@ void write_rounds(const scene::Scene& scene, const scene::LightList& list, Light
     const auto& rounds = dynamic_cast<const scene::LightsOf<scene::RoundLight>&>(list);
     for (const scene::RoundLight& light : rounds.lights) records.has_shape_of(constant_of(light)) = true;
     std::vector<interface::RoundLightRecord> lights;
+    // For rounding, and because shadow rays have to end before the surface.
+    constexpr double kMargin = 1e-4;
+    const std::vector<double> shells = scene::round_shells(scene);
+    auto shell = shells.begin();
     for (const scene::RoundForm& form : round_forms(scene)) {
         interface::RoundLightRecord& record = lights.emplace_back();
         record.shape = static_cast<std::uint32_t>(form.shape);
@@ -44,7 +49,7 @@ void write_rounds(const scene::Scene& scene, const scene::LightList& list, Light
         copy(form.radiance, record.radiance);
         record.emits_outwards = static_cast<std::uint32_t>(form.emits_outwards);
         record.emits_inwards = static_cast<std::uint32_t>(form.emits_inwards);
-        record.shell = form.shell;
+        record.shell = static_cast<float>((1 - kMargin) * *shell++);
     }
     records.array_at(interface::kRoundLightsBinding) = make_light_array("spheres and disks", lights);
 }

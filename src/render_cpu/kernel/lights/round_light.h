@@ -71,8 +71,8 @@ struct LocalRound : Light<Real> {
     const render_cpu::RoundRecord* record;
     LaneMask inside; ///< points that a solid light surrounds
 
-    /// From inside, where all directions lead to the light, its triangles in the scene come a little before it. Shadow rays have
-    /// to end before these: where they leave the shell.
+    /// From inside, where all directions lead to the light, it is a little too large: see facing_lanes(). Shadow rays end where it
+    /// really is.
     void modulate(const Surface& surface, DirectLightSample<Real>& sample) const noexcept {
         if constexpr (!kIsFlat<Light>) {
             if (!any(inside)) return;
@@ -81,19 +81,19 @@ struct LocalRound : Light<Real> {
             const Vector direction = in_unit_sphere(*record, surface.frame.to_world(sample.wi));
             const Real a = dot(direction, direction);
             const Real half = dot(origin, direction);
-            const Real shell(record->shell);
             const Real distance = length(origin);
-            const Real root = half * half - a * ((distance - shell) * (distance + shell));
-            // Rays between triangles and shell are short.
-            constexpr float kShort = 1e-3f;
-            const Real way = max(sqrt(max(root, Real(0))) - half, Real(kShort) * sqrt(a));
+            const Real root = half * half - a * ((distance - Real(1)) * (distance + Real(1)));
+            // No shorter, because a ray needs a direction. Along the surface, this is far less than what shadow rays take for the same
+            // point.
+            constexpr float kShortest = 1e-3f;
+            const Real way = max(sqrt(max(root, Real(0))) - half, Real(kShortest) * sqrt(a));
             sample.p = select(inside, (way / a) * sample.wi, sample.p);
         }
     }
 };
 
 /// Finds the points that lie on a side that emits.
-/// \param on_light points on the triangles of the light
+/// \param on_light points on the surface of the light
 template <template <class> class Light>
 LaneMask facing_lanes(const Surface& surface, LaneMask on_light, LocalRound<Light>& light) noexcept {
     const render_cpu::RoundRecord& record = *light.record;
@@ -104,13 +104,13 @@ LaneMask facing_lanes(const Surface& surface, LaneMask on_light, LocalRound<Ligh
         return !on_light & !(dot(normal, light.center) >= Real(0));
     } else {
         const Vector unit = in_unit_sphere(record, surface.position - broadcast<Real>(to_vec(record.center)));
-        // Rounding puts corners of triangles to either side of the light: their front decides.
+        // Rounding puts points on the light to either side of it: the normal towards the eye decides.
         const Vector normal = in_unit_sphere(record, surface.geometric_normal);
         const LaneMask faces_inwards = dot(normal, unit) < Real(0);
         light.inside = (on_light & faces_inwards) | (!on_light & (dot(unit, unit) < Real(1)));
         const LaneMask outside = !on_light & !light.inside;
         if (record.emits_inwards == 0) return outside;
-        // A little larger, so that those corners are inside.
+        // A little larger, so that those points are inside.
         constexpr float kMargin = 1.001f;
         scale(select(light.inside, Real(kMargin), Real(1)), light);
         return record.emits_outwards != 0 ? outside | light.inside : light.inside;

@@ -1,7 +1,6 @@
 #include "scene/model/lights/round/round_form.h"
 
 #include "scene/model/lights/round/round_axes.h"
-#include "scene/model/lights/round/round_shell.h"
 
 #include <cmath>
 
@@ -44,11 +43,6 @@ RoundForm make_form(const RoundLight& light) {
 std::vector<RoundForm> round_forms(const Scene& scene) {
     std::vector<RoundForm> forms;
     for (const RoundLight& light : scene.lights.of<RoundLight>()) forms.push_back(make_form(light));
-    // For rounding, and because shadow rays have to end before the surface.
-    constexpr double kMargin = 1e-4;
-    const std::vector<double> shells = round_shells(scene);
-    for (std::size_t i = 0; i < forms.size(); ++i)
-        forms[i].shell = static_cast<float>((1 - kMargin) * shells[i]);
     return forms;
 }
 

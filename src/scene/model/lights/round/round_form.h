@@ -25,9 +25,6 @@ struct RoundForm {
     Float3 radiance;
     std::int32_t emits_outwards; ///< or to the side of the normal
     std::int32_t emits_inwards;  ///< or to the other side
-    /// The largest similar ellipsoid around the centre that fits into the triangles of the scene, as a share of this one: at most
-    /// 1. From inside, where all directions lead to the light, shadow rays end there.
-    float shell;
 };
 
 /// The round lights of a scene, in their order.

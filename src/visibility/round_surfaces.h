@@ -1,0 +1,68 @@
+#pragma once
+/// Round lights as rays meet them: by the equation of the exact shape. Their triangles are for GPUs and for lines of other lights.
+
+#include "scene/model/scene.h"
+#include "scene/model/vector_math.h"
+#include "visibility/embree_api.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nusselt::visibility {
+
+/// A round light in the space of its unit sphere, where ellipses lie in the plane z = 0.
+struct RoundSurface {
+    const scene::Scene* scene;
+    std::uint32_t light;    ///< its number among all lights of the scene
+    std::uint32_t triangle; ///< one of its triangles in the scene, which has its material
+    std::array<double, 3> center;
+    std::array<double, 9> inverse; ///< rows; from world space
+    std::array<float, 3> lower, upper;
+    double rounding;  ///< how far single precision moves points of the surface [m]
+    double shrinkage; ///< the same as a share of the shape
+    bool is_flat;
+    bool is_partial; ///< whether rays meet the surface with a probability: see Presence
+};
+
+/// Where a ray crosses a surface: up to two places, in the order of the ray.
+class RoundCrossings {
+public:
+    /// \param direction of any length but 0
+    /// \param shrinkage share by which the radius of solid lights is smaller here
+    RoundCrossings(const RoundSurface& surface, const scene::Double3& origin, const scene::Double3& direction,
+                   double shrinkage = 0);
+
+    int count() const { return count_; }
+    /// As the ray counts, perhaps negative.
+    double t(int i) const { return middle_ + sign(i) * half_; }
+    /// On the unit sphere, or in the unit disk.
+    scene::Double3 point(int i) const;
+
+private:
+    static double sign(int i) { return i == 0 ? -1 : 1; }
+
+    scene::Double3 closest_ = {}, direction_ = {};
+    double middle_ = 0, half_ = 0;
+    int count_ = 0;
+    bool is_flat_;
+};
+
+/// Whether a surface, as if it were everywhere, lies between the ends of a shadow ray. Rays end next to the lights that they
+/// are for: up to rounding, points on the surface see all points of it that no other surface hides.
+/// \param t_far may be infinite
+/// \returns the crossings in the way, as bits
+unsigned crossings_in_way(const RoundSurface& surface, const scene::Double3& origin,
+                          const scene::Double3& direction, double t_far);
+
+/// Texture coordinates as scene::surface() gives them. \param point on the unit sphere, or in the unit disk
+scene::Float2 texture_coordinates(const RoundSurface& surface, const scene::Double3& point);
+
+/// The round lights with a surface, unless its alpha is 0 everywhere.
+std::vector<RoundSurface> make_round_surfaces(const scene::Scene& scene);
+
+/// Makes Embree ask a geometry of its type for users about these lights. Hits have the point of the unit sphere in place of the
+/// normal. \param surfaces must outlive the geometry
+void set_surfaces(RTCGeometry geometry, const std::vector<RoundSurface>& surfaces);
+
+} // namespace nusselt::visibility
