@@ -198,25 +198,6 @@ TEST(RoundLight, IsSeenOnTheSidesThatEmit) {
     EXPECT_EQ(seen(two_sided(outwards), {0, 0, 0.5f}, {0.2f, 0.1f, 1}), 3);
 }
 
-/// The wall of a hollow sphere receives its radiance from all directions.
-TEST(RoundLight, LightsItsOwnInside) {
-    scene::Scene scene;
-    scene.materials.push_back({.name = "grey", .diffuse = {0.5f, 0.5f, 0.5f}});
-    add_round_light(scene, sphere({1, 2, 3}, 2, RoundModel::hollow));
-    set_camera(scene, {1, 2, 3}, {2, 3, 4}, {0, 1, 0}, 0.5, 16, 16);
-    set_radius(scene);
-    render::RenderSettings settings;
-    settings.samples = 16;
-    const image::Image image = render_cpu::Renderer(scene, 1).render(settings, base::choose_isa()).image;
-    // Samples between a flat piece and the tangent plane of its smooth normals are lost: three in ten thousand.
-    double sum = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
-        EXPECT_LT(image.pixels[i], 3 * 1.5 + 0.01);
-        sum += double{image.pixels[i]};
-    }
-    EXPECT_NEAR(sum / (16 * 16), 3 * 1.5, 0.005);
-}
-
 /// Disks above a parallel floor, and spheres: no shadows, no noise, and closed forms.
 TEST(RoundLight, HasTheLightOfClosedForms) {
     const auto radiance = [](const RoundLight& light, Technique technique) {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace nusselt::scene {
@@ -57,15 +56,6 @@ void reverse(RoundLight& light) {
         light.model = RoundModel::hollow;
 }
 
-void warn_of_surface(const ShapeDescription& shape, const RoundLight& light, int sides, Warnings& warnings) {
-    const std::string pieces = light.model == RoundModel::ellipse
-                                   ? std::to_string(kSidesOfEllipse * sides) + " x 1"
-                                   : std::to_string(sides) + " x " + std::to_string(sides / 2);
-    warnings.add(shape.origin, "surfaces of round lights",
-                 subject_of(shape) + ": its surface is approximated by " + pieces +
-                     " flat pieces; its light is exact");
-}
-
 } // namespace
 
 bool becomes_round_light(const Geometry& geometry, const Emission& emission,
@@ -89,7 +79,6 @@ BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words
     built.uvs = std::move(made.uvs);
     built.triangles = std::move(made.triangles);
     built.triangle_light.assign(built.triangles.size(), 0);
-    if (!shape.is_invisible) warn_of_surface(shape, light, placed.max_sides, built.warnings);
     if (shape.emission.profile != nullptr) {
         const std::shared_ptr<const Luminaire>& luminaire = shape.emission.profile->luminaire;
         if (const Darkness dark = luminaire == nullptr ? Darkness() : darkness(*luminaire)) {

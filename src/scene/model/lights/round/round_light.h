@@ -1,5 +1,5 @@
 #pragma once
-/// Spheres, disks, ellipsoids and ellipses. Their surfaces are triangles of the scene; their light is that of the exact shape.
+/// Spheres, disks, ellipsoids and ellipses. Their light is that of the exact shape. They have triangles in the scene, too.
 
 #include "scene/model/lights/light_list.h"
 
@@ -15,8 +15,8 @@ enum class RoundModel : std::uint32_t {
 };
 
 /// The points center + x u + y v + z w with x^2 + y^2 + z^2 <= 1. The semi-diameters are conjugate: any linear image of a sphere
-/// or a disk. Renderers give it the light of this shape. Cameras meet its surface(), the corners of which lie on the shape, and the
-/// rest inside. Shadow rays meet that on GPUs, and the shape itself on the CPU.
+/// or a disk. Renderers give it the light of this shape. On the CPU, cameras and shadow rays meet the shape itself. On GPUs, they meet
+/// its surface(), the corners of which lie on the shape, and the rest inside; so do line samples of other lights.
 struct RoundLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     RoundModel model = RoundModel::ellipsoid;
@@ -39,7 +39,7 @@ inline constexpr int kRoundSides = 64;
 /// Ellipses have so many times as many, because flat surfaces need few triangles.
 inline constexpr int kSidesOfEllipse = 4;
 
-/// What cameras meet, see RoundLight. Triangles turn their front to the side that emits, outwards if both do. Texture coordinates
+/// The triangles, see RoundLight. They turn their front to the side that emits, outwards if both do. Texture coordinates
 /// are the angle from u to v, and the angle from -w to w or the distance from the rim to the centre.
 /// \param sides around the circumference of ellipsoids, at least 4
 LightSurface surface(const RoundLight& light, int sides);
