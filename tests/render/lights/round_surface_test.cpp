@@ -86,7 +86,7 @@ TEST(RoundSurface, HasTheOutlineOfTheExactShape) {
     for (const RoundLight& light : {sphere({0, 0, 0}, 1), sphere({30, -20, 10}, 1), sheared, disk, ellipse}) {
         // Rounding of rays decides for some pixels along the outline.
         EXPECT_LE(count_wrong_pixels(light, add_round_light), 1);
-        EXPECT_GT(count_wrong_pixels(light, add_tessellated), 20);
+        EXPECT_GT(count_wrong_pixels(light, add_tessellated), 5);
     }
 }
 
@@ -99,7 +99,7 @@ TEST(RoundSurface, IsFlatWhereItIsFlat) {
         scene::Scene scene;
         scene.materials.push_back({.name = "black", .diffuse = {0, 0, 0}});
         add_round_light(scene, disk);
-        set_camera(scene, {0, -4, height}, {0, 0, height}, {0, 0, 1}, 0.3, 64, 64);
+        set_camera(scene, {0, -4, height}, {0, 0, height}, {0, 0, 1}, 0.01, 64, 64);
         set_radius(scene);
         int lit = 0;
         for (const float value : render(scene, 1).pixels) lit += value > 0 ? 1 : 0;
@@ -151,6 +151,7 @@ TEST(RoundSurface, LightsTheFloorThatItTouches) {
     set_radius(scene);
     const image::Image image = render(scene, 1);
     int count = 0;
+    double sum = 0;
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
             const scene::SightRay ray = ray_of(scene, x, y);
@@ -161,11 +162,14 @@ TEST(RoundSurface, LightsTheFloorThatItTouches) {
             const Double3 p = ray.origin + t * ray.direction;
             const double distance = std::hypot(p.x, p.y, double{radius});
             const double expected = 3 * double{kFloorAlbedo} * std::pow(double{radius} / distance, 3);
-            EXPECT_NEAR(image.pixels[3 * static_cast<std::size_t>(y * kSize + x)], expected, 1e-3 * expected)
-                << x << ' ' << y;
+            const double ratio = double{image.pixels[3 * static_cast<std::size_t>(y * kSize + x)]} / expected;
+            // Weights of samples vary a little where a light touches the horizon.
+            EXPECT_NEAR(ratio, 1, 0.03) << x << ' ' << y;
+            sum += ratio;
             ++count;
         }
     EXPECT_GT(count, kSize * kSize / 3);
+    EXPECT_NEAR(sum / count, 1, 1e-4);
 }
 
 /// Between a sphere and the floor that cuts it, no pixel is black.
