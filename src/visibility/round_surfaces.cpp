@@ -118,7 +118,7 @@ void find_hits(const RTCIntersectFunctionNArguments* arguments) {
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
         const Ray ray(rays, n, i);
-        const RoundCrossings crossings(surface, to_double(ray.origin), to_double(ray.direction));
+        const RoundCrossings crossings(surface, UnitRay(surface, ray.origin, ray.direction));
         for (int k = 0; k < crossings.count(); ++k) {
             const double t = crossings.t(k);
             if (!(t > RTCRayN_tnear(rays, n, i) && t < RTCRayN_tfar(rays, n, i))) continue;
@@ -144,10 +144,14 @@ void find_shadows(const RTCOccludedFunctionNArguments* arguments) {
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
         const Ray ray(rays, n, i);
-        const Double3 origin = to_double(ray.origin), direction = to_double(ray.direction);
-        const unsigned in_way = crossings_in_way(surface, origin, direction, RTCRayN_tfar(rays, n, i));
+        const UnitRay unit(surface, ray.origin, ray.direction);
+        const unsigned in_way = crossings_in_way(surface, unit, RTCRayN_tfar(rays, n, i));
         if (in_way == 0) continue;
-        const RoundCrossings crossings(surface, origin, direction);
+        if (!surface.is_partial) {
+            RTCRayN_tfar(rays, n, i) = -kInfinity;
+            continue;
+        }
+        const RoundCrossings crossings(surface, unit);
         for (int k = 0; k < crossings.count(); ++k)
             if ((in_way >> k & 1u) != 0 && is_there(surface, ray, crossings, k))
                 RTCRayN_tfar(rays, n, i) = -kInfinity;
@@ -156,21 +160,23 @@ void find_shadows(const RTCOccludedFunctionNArguments* arguments) {
 
 } // namespace
 
-RoundCrossings::RoundCrossings(const RoundSurface& surface, const Double3& origin, const Double3& direction,
-                               double shrinkage)
-    : direction_(to_unit(surface, direction)), is_flat_(surface.is_flat) {
-    const Double3 unit = to_unit(surface, origin - center_of(surface));
+UnitRay::UnitRay(const RoundSurface& surface, const scene::Float3& from, const scene::Float3& along)
+    : origin(to_unit(surface, to_double(from) - center_of(surface))),
+      direction(to_unit(surface, to_double(along))) {}
+
+RoundCrossings::RoundCrossings(const RoundSurface& surface, const UnitRay& ray, double shrinkage)
+    : direction_(ray.direction), is_flat_(surface.is_flat) {
     if (is_flat_) {
-        middle_ = -unit.z / direction_.z;
-        closest_ = unit + middle_ * direction_;
+        middle_ = -ray.origin.z / direction_.z;
+        closest_ = ray.origin + middle_ * direction_;
         closest_.z = 0;
         // Comparisons with NaN are false.
         count_ = dot(closest_, closest_) <= 1 ? 1 : 0;
         return;
     }
     const double a = dot(direction_, direction_);
-    middle_ = -dot(unit, direction_) / a;
-    closest_ = unit + middle_ * direction_;
+    middle_ = -dot(ray.origin, direction_) / a;
+    closest_ = ray.origin + middle_ * direction_;
     // From the closest point, because the discriminant of the equation for t cancels for distant origins.
     const double radius = 1 - shrinkage;
     const double gap = radius * radius - dot(closest_, closest_);
@@ -183,19 +189,18 @@ Double3 RoundCrossings::point(int i) const {
     return is_flat_ ? closest_ : normalized(closest_ + (sign(i) * half_) * direction_);
 }
 
-unsigned crossings_in_way(const RoundSurface& surface, const Double3& origin, const Double3& direction,
-                          double t_far) {
+unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, double t_far) {
     const auto is_before_end = [&](double t) { return t > 0 && t < t_far; };
     if (surface.is_flat) {
-        const RoundCrossings crossings(surface, origin, direction);
+        const RoundCrossings crossings(surface, ray);
         return crossings.count() > 0 && is_before_end(crossings.t(0)) ? 1u : 0u;
     }
-    const Double3 begin = to_unit(surface, origin - center_of(surface));
     // Solid lights are convex: from inside, only rays that end outside cross them.
-    if (dot(begin, begin) < 1)
-        return is_inside_or_near(surface, begin + t_far * to_unit(surface, direction)) ? 0u : 2u;
+    if (dot(ray.origin, ray.origin) < 1)
+        return is_inside_or_near(surface, ray.origin + t_far * ray.direction) ? 0u : 2u;
+    if (dot(ray.origin, ray.direction) >= 0) return 0;
     // From outside a slightly smaller shape counts: rays that end on the rim must not end in its shadow.
-    const RoundCrossings crossings(surface, origin, direction, surface.shrinkage);
+    const RoundCrossings crossings(surface, ray, surface.shrinkage);
     if (crossings.count() == 0 || !is_before_end(crossings.t(0))) return 0;
     return is_before_end(crossings.t(1)) ? 3u : 1u;
 }

@@ -25,13 +25,19 @@ struct RoundSurface {
     bool is_partial; ///< whether rays meet the surface with a probability: see Presence
 };
 
+/// A ray in the space of the unit sphere.
+struct UnitRay {
+    /// \param direction of any length but 0
+    UnitRay(const RoundSurface& surface, const scene::Float3& origin, const scene::Float3& direction);
+
+    scene::Double3 origin, direction;
+};
+
 /// Where a ray crosses a surface: up to two places, in the order of the ray.
 class RoundCrossings {
 public:
-    /// \param direction of any length but 0
     /// \param shrinkage share by which the radius of solid lights is smaller here
-    RoundCrossings(const RoundSurface& surface, const scene::Double3& origin, const scene::Double3& direction,
-                   double shrinkage = 0);
+    RoundCrossings(const RoundSurface& surface, const UnitRay& ray, double shrinkage = 0);
 
     int count() const { return count_; }
     /// As the ray counts, perhaps negative.
@@ -52,8 +58,7 @@ private:
 /// are for: up to rounding, points on the surface see all points of it that no other surface hides.
 /// \param t_far may be infinite
 /// \returns the crossings in the way, as bits
-unsigned crossings_in_way(const RoundSurface& surface, const scene::Double3& origin,
-                          const scene::Double3& direction, double t_far);
+unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, double t_far);
 
 /// Texture coordinates as scene::surface() gives them. \param point on the unit sphere, or in the unit disk
 scene::Float2 texture_coordinates(const RoundSurface& surface, const scene::Double3& point);

@@ -39,12 +39,15 @@ inline float largest(const Vec3<float>& v) noexcept {
 
 inline RoundPoints round_points(const render_cpu::KernelScene& scene,
                                 const visibility::HitPacket<kLanes>& hits) noexcept {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < kLanes; ++i) bits |= static_cast<std::uint32_t>(hits.round[i] >= 0) << i;
+    // Most packets hit none.
+    const Vector zero{Real(0), Real(0), Real(0)};
+    if (bits == 0) return {LaneMask(false), zero, zero, zero, zero, Real(0)};
     constexpr float kPi = 3.14159265f;
     Lanes position{}, normal{}, along_u{}, along_v{}, coordinate{};
-    std::uint32_t bits = 0;
     for (int i = 0; i < kLanes; ++i) {
         if (hits.round[i] < 0) continue;
-        bits |= 1u << i;
         const render_cpu::LightSet& set = set_of(scene, hits.round[i]);
         const render_cpu::RoundRecord& record =
             static_cast<const render_cpu::RoundRecord*>(set.records)[hits.round[i] - set.first];
