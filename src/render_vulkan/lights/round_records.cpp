@@ -30,7 +30,7 @@ void write_rounds(const scene::Scene& scene, const scene::LightList& list, Light
     const auto& rounds = dynamic_cast<const scene::LightsOf<scene::RoundLight>&>(list);
     for (const scene::RoundLight& light : rounds.lights) records.has_shape_of(constant_of(light)) = true;
     std::vector<interface::RoundLightRecord> lights;
-    // For rounding, and because shadow rays have to end before the surface.
+    // Here, rays meet flat pieces. The margin is for rounding, and because shadow rays have to end before them.
     constexpr double kMargin = 1e-4;
     const std::vector<double> shells = scene::round_shells(scene);
     auto shell = shells.begin();

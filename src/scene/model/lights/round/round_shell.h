@@ -1,5 +1,5 @@
 #pragma once
-/// What the flat pieces of the surfaces of round lights leave of their inside.
+/// What the flat pieces that GPUs draw of round lights leave of their inside.
 
 #include "scene/model/scene.h"
 
