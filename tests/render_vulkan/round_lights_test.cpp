@@ -98,6 +98,7 @@ TEST_F(RoundLightsOnGpu, AgreeWithTheCpu) {
     VulkanRenderer renderer(device(), scene, render_vulkan::default_shadow_rays(device()));
     for (const auto& settings : {settings_of(Technique::projected_solid_angle, Strategies::diffuse_ltc),
                                  settings_of(Technique::area, Strategies::diffuse),
+                                 settings_of(Technique::clipped_solid_angle, Strategies::diffuse),
                                  settings_of(Technique::ltc_analytic, Strategies::diffuse)}) {
         SCOPED_TRACE(name_of(settings.technique));
         const render::RenderResult result = renderer.render(settings);

@@ -1,6 +1,6 @@
 #pragma once
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
-/// cone_sweep.h.
+/// cone_sweep.h and solid_sweep.h.
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
@@ -211,6 +211,26 @@ public:
         return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
     }
 
+    /// The solid angle of the sweep per z, up to a constant. It is positive at both ends as well.
+    NUSSELT_HD Real solid_density(const Turn& turn) const noexcept {
+        const Rim& rim = turn.rim;
+        // 1 + h0 y - pole x as a sum of squares: nothing cancels for the last sliver above the horizon.
+        const Real offset = rim.disk.x - pole_;
+        const Real volume =
+            Real(0.5) * multiply_add(offset, offset, multiply_add(turn.clearance, turn.clearance, power_));
+        return volume * turn.jacobian / (rim.length * (rim.length * (Real(1) + cosine_of(rim))));
+    }
+    /// The solid angle of the sweep over the integral of solid_density() over z.
+    NUSSELT_HD Real solid_scale() const noexcept { return narrowing_ * slope_ * half_range_; }
+
+    /// 1 minus the cosine of the angle of a point of the rim from the pole.
+    NUSSELT_HD static Real versine_of(const Rim& rim) noexcept {
+        const Real sine = detail::hypotenuse(rim.aside, rim.up) / rim.length;
+        const Real cosine = cosine_of(rim);
+        const auto forwards = cosine > Real(0);
+        return select(forwards, sine * sine, Real(1) - cosine) / select(forwards, Real(1) + cosine, Real(1));
+    }
+
     /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
     NUSSELT_HD Real place_of(const Vec3<Real>& wi) const noexcept {
         // The ray in the disk, scaled to order one.
@@ -247,6 +267,12 @@ public:
     }
 
 private:
+    /// Of the angle from the pole, and so far from -1 that quotients are finite.
+    NUSSELT_HD static Real cosine_of(const Rim& rim) noexcept {
+        constexpr Scalar kLeast = -1 + 4 * std::numeric_limits<Scalar>::epsilon();
+        return min(max(rim.along / rim.length, Real(kLeast)), Real(1));
+    }
+
     /// \param disk      a point of the unit circle, across and up from the axis.
     /// \param clearance its height above the horizon.
     NUSSELT_HD Rim rim_at(const Vec2<Real>& disk, const Real& clearance) const noexcept {

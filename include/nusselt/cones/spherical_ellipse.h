@@ -57,6 +57,8 @@ class SphericalEllipse {
     using Scalar = scalar_t<Real>;
 
 public:
+    SphericalEllipse() = default;
+
     /// \param light relative to the shading point [m].
     NUSSELT_HD explicit SphericalEllipse(const Light<Real>& light) noexcept
         : view_(view_of(light, detail::SameSpace())) {
@@ -134,6 +136,9 @@ public:
 
     /// Solid angle of the light [sr], as exact as the integral of the turn.
     NUSSELT_HD Real measure() const noexcept { return measure_; }
+
+    /// How the origin sees the light.
+    NUSSELT_HD const LightView<Light<Real>>& view() const noexcept { return view_; }
 
 private:
     /// A direction in the quadrant of positive coordinates.

@@ -1,7 +1,7 @@
 #ifndef NUSSELT_CONES_CONE_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_SOLID_ANGLE_GLSL
 // Follows include/nusselt/cones/cone_solid_angle.h @ 14cd2be6a5c7
-// Follows include/nusselt/cones/spherical_ellipse.h @ 30af89b34841
+// Follows include/nusselt/cones/spherical_ellipse.h @ 5f60bcdfbece
 /// Sampling of the solid angle of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()), for
 /// surfaces and for volumes. Twin of include/nusselt/cones/cone_solid_angle.h, which has the measure and the edge
 /// cases.

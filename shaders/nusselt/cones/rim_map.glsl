@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 11ff5a781506
+// Follows include/nusselt/cones/rim_map.h @ f0e4275f08e5
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -219,6 +219,29 @@ float rim_map_density(const RimMap self, const RimTurn turn) {
     float volume = nusselt_max(self.height * rim.disk.y < 0.0 ? close : apart, 0.0);
     float inverse = 1.0 / rim.len;
     return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
+}
+
+/// The cosine of the angle of a point of the rim from the pole, so far from -1 that quotients are finite.
+float rim_point_cosine(const RimPoint rim) {
+    return nusselt_min(nusselt_max(rim.cosine, -1.0 + 4.0 * kNusseltEpsilon), 1.0);
+}
+
+/// The solid angle of the sweep per z, up to a constant. It is positive at both ends as well.
+float rim_map_solid_density(const RimMap self, const RimTurn turn) {
+    RimPoint rim = turn.rim;
+    // 1 + h0 y - pole x as a sum of squares: nothing cancels for the last sliver above the horizon.
+    float offset = rim.disk.x - self.pole;
+    float volume = 0.5 * nusselt_fma(offset, offset, nusselt_fma(turn.clearance, turn.clearance, self.power));
+    return volume * turn.jacobian / (rim.len * (rim.len * (1.0 + rim_point_cosine(rim))));
+}
+
+/// The solid angle of the sweep over the integral of rim_map_solid_density() over z.
+float rim_map_solid_scale(const RimMap self) { return self.narrowing * self.slope * self.half_range; }
+
+/// 1 minus the cosine of the angle of a point of the rim from the pole.
+float rim_point_versine(const RimPoint rim) {
+    float cosine = rim_point_cosine(rim);
+    return cosine > 0.0 ? rim.sine * rim.sine / (1.0 + cosine) : 1.0 - cosine;
 }
 
 /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.

@@ -6,6 +6,7 @@
 #include "passes/lights/techniques.glsl"
 
 #if ROUND_LIGHTS
+#include "nusselt/cones/cone_clipped_solid_angle.glsl"
 #include "nusselt/cones/cone_ltc.glsl"
 #include "nusselt/cones/cone_projected_solid_angle.glsl"
 #include "nusselt/cones/cone_solid_angle.glsl"
@@ -20,6 +21,7 @@ struct RoundTechniques {
     bool is_by_area;
     EllipseArea area;
     ConeSolidAngle solid_angle;
+    ConeClippedSolidAngle clipped;
     ConeProjectedSolidAngle projected;
     ConeLtc ltc;
 };
@@ -30,7 +32,9 @@ RoundTechniques prepare_techniques(const RoundShape light, const GlossySurface s
     self.is_by_area = kTechnique == kTechniqueArea && kHasEllipses && light.is_flat;
     if (self.is_by_area)
         self.area = ellipse_area_prepare(fixed_ellipse_of(light));
-    else if (kIsSolidAngle || kTechnique == kTechniqueArea)
+    else if (kTechnique == kTechniqueClippedSolidAngle)
+        self.clipped = cone_clipped_solid_angle_of(view_of(light));
+    else if (kTechnique == kTechniqueSolidAngle || kTechnique == kTechniqueArea)
         self.solid_angle = cone_solid_angle_of(view_of(light));
     else if (kIsProjected)
         self.projected = cone_projected_solid_angle_of(view_of(light));
@@ -43,7 +47,9 @@ RoundTechniques prepare_techniques(const RoundShape light, const GlossySurface s
 LightSample techniques_sample(const RoundTechniques self, int technique, vec2 u) {
     if (technique == 1) return cone_ltc_sample(self.ltc, u);
     if (self.is_by_area) return ellipse_area_sample(self.area, u);
-    if (kIsSolidAngle || kTechnique == kTechniqueArea) return cone_solid_angle_sample(self.solid_angle, u);
+    if (kTechnique == kTechniqueClippedSolidAngle) return cone_clipped_solid_angle_sample(self.clipped, u);
+    if (kTechnique == kTechniqueSolidAngle || kTechnique == kTechniqueArea)
+        return cone_solid_angle_sample(self.solid_angle, u);
     if (kIsProjected) return cone_projected_solid_angle_sample(self.projected, u);
     return unknown_sample();
 }

@@ -222,5 +222,31 @@ TEST(RoundLight, HasTheLightOfClosedForms) {
     }
 }
 
+/// How many pixels of a floor with one sample each are black, though the light is above all of them.
+std::size_t black_pixels(const RoundLight& light, Technique technique) {
+    constexpr int kPixels = 32;
+    scene::Scene scene = make_floor(1);
+    add_round_light(scene, light);
+    set_camera(scene, {0.6f, 0, 0.5f}, {0.6f, 0, 0}, {0, 1, 0}, 0.2, kPixels, kPixels);
+    set_radius(scene);
+    render::RenderSettings settings = settings_for(technique, Strategies::diffuse);
+    settings.samples = 1;
+    const image::Image image = render_cpu::Renderer(scene, 1).render(settings, base::choose_isa()).image;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) count += image.pixels[i] > 0 ? 0 : 1;
+    return count;
+}
+
+TEST(RoundLight, LosesNoSamplesBelowTheSurfaceByClippedSolidAngle) {
+    RoundLight oblique = sphere({-0.4f, 0.1f, 0.05f}, 0.4f);
+    oblique.w = {0.1f, 0, 0.2f};
+    const RoundLight lights[] = {sphere({-0.4f, 0.1f, 0}, 0.3f), oblique,
+                                 two_sided(ellipse({-0.4f, 0, 0.1f}, {0.1f, 0.3f, 0}, {0, 0, 0.3f}))};
+    for (const RoundLight& light : lights) {
+        EXPECT_EQ(black_pixels(light, Technique::clipped_solid_angle), 0u);
+        EXPECT_GT(black_pixels(light, Technique::solid_angle), 100u);
+    }
+}
+
 } // namespace
 } // namespace nusselt::render_test

@@ -6,6 +6,7 @@
 #include "render_cpu/kernel/single_technique.h"
 #include "render_cpu/lights/round_records.h"
 
+#include <nusselt/cones/cone_clipped_solid_angle.h>
 #include <nusselt/cones/cone_projected_solid_angle.h>
 #include <nusselt/cones/cone_shading.h>
 #include <nusselt/cones/cone_solid_angle.h>
@@ -146,7 +147,7 @@ struct RoundLight {
         return ConeSolidAngle<Real, Light>(shape);
     }
     static auto technique(TechniqueTag<render::Technique::clipped_solid_angle>, const Shape& shape) noexcept {
-        return ConeSolidAngle<Real, Light>(shape);
+        return ConeClippedSolidAngle<Real, Light>(shape);
     }
     static auto technique(TechniqueTag<render::Technique::projected_solid_angle>,
                           const Shape& shape) noexcept {

@@ -1,0 +1,219 @@
+/// Tests of the clipped solid angle of spheres, disks, ellipses and ellipsoids: measures, densities and weights where the horizon
+/// cuts them, and cases that have no rim of their own, such as a point inside.
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <nusselt/cones/cone_clipped_solid_angle.h>
+
+#include "cones/round_cases.h"
+
+namespace nusselt_test {
+namespace {
+
+using nusselt::abs;
+using nusselt::Disk;
+using nusselt::Ellipsoid;
+using nusselt::Sphere;
+using nusselt::Vec2;
+
+template <class T, template <class> class Light>
+nusselt::ConeClippedSolidAngle<T, Light> clipped(const Light<T>& light) {
+    return nusselt::ConeClippedSolidAngle<T, Light>(light);
+}
+
+template <class T, template <class> class Light>
+nusselt::ConeClippedSolidAngle<T, Light, nusselt::kFineConePlaces> clipped_finely(const Light<T>& light) {
+    return nusselt::ConeClippedSolidAngle<T, Light, nusselt::kFineConePlaces>(light);
+}
+
+/// The middle of cell i of a grid.
+template <class T>
+Vec2<T> grid(int i, int side) {
+    const T size = static_cast<T>(side);
+    return {(static_cast<T>(i % side) + T(0.5)) / size, (static_cast<T>(i / side) + T(0.5)) / size};
+}
+
+template <class Function>
+void for_each_light(Place place, int count, const Function& f) {
+    RandomLights lights(11);
+    for (int i = 0; i < count; ++i)
+        for (const Shape shape : kShapes) f(lights(shape, place));
+}
+
+struct Case {
+    const char* name;
+    Place place;
+    double spread;  ///< of weights around 1
+    double measure; ///< relative error
+};
+// The interpolant is a polynomial but for wide cones, where it is linear between places.
+constexpr Case kCases[] = {
+    {"ordinary", Place::ordinary, 4e-3, 5e-5},   {"at horizon", Place::at_horizon, 4e-3, 1e-4},
+    {"tiny", Place::tiny, 1e-3, 1e-5},           {"near", Place::near, 0.15, 2e-2},
+    {"elongated", Place::elongated, 5e-3, 1e-4}, {"edge-on", Place::edge_on, 5e-3, 1e-4}};
+
+TEST(ConeClippedSolidAngleTest, WeightsAreNearlyConstant) {
+    for (const Case& c : kCases) {
+        double least = 1, most = 1, worst = 0;
+        for_each_light(c.place, 10, [&](const RoundLight& light) {
+            const auto one = [](const Point&) { return 1.0L; };
+            with_light<double>(light, [&](const auto& l) {
+                const auto technique = clipped(l);
+                if (!(technique.measure() > 0)) return;
+                const auto exact =
+                    static_cast<double>(VisiblePart(silhouette_of(light)).integral(one, 0, 1, 0, 1, 128));
+                worst = std::max(worst, std::fabs(technique.measure() / exact - 1));
+                for (int i = 0; i < 256; ++i) {
+                    const auto s = technique.sample(grid<double>(i, 16));
+                    ASSERT_GT(s.pdf, 0);
+                    ASSERT_GE(s.wi.z, 0);
+                    least = std::min(least, 1 / (s.pdf * exact));
+                    most = std::max(most, 1 / (s.pdf * exact));
+                }
+            });
+        });
+        EXPECT_LE(most - 1, c.spread) << c.name;
+        EXPECT_GE(least - 1, -c.spread) << c.name;
+        EXPECT_LE(worst, c.measure) << c.name;
+    }
+}
+
+TEST(ConeClippedSolidAngleTest, WeightsOfWideConesAreNearlyConstantWithMorePlaces) {
+    const auto spread = [](const auto& technique) {
+        double largest = 0;
+        for (int i = 0; i < 256 && technique.measure() > 0; ++i) {
+            const double weight = 1 / (technique.sample(grid<double>(i, 16)).pdf * technique.measure());
+            largest = std::max(largest, std::fabs(weight - 1));
+        }
+        return largest;
+    };
+    double coarse = 0, fine = 0;
+    for (const Place place : {Place::near, Place::needle}) {
+        for_each_light(place, 50, [&](const RoundLight& light) {
+            with_light<double>(light, [&](const auto& l) { coarse = std::max(coarse, spread(clipped(l))); });
+            with_light<double>(light,
+                               [&](const auto& l) { fine = std::max(fine, spread(clipped_finely(l))); });
+        });
+    }
+    constexpr double kTarget = 0.01;
+    EXPECT_LE(fine, kTarget);
+    EXPECT_GT(coarse, kTarget);
+}
+
+/// The largest relative difference of densities and the Jacobian of the map from random numbers to directions.
+/// \param change of the density.
+double jacobian_error(double change) {
+    double worst = 0;
+    for (const Place place :
+         {Place::ordinary, Place::at_horizon, Place::near, Place::elongated, Place::touching}) {
+        for_each_light(place, 10, [&](const RoundLight& light) {
+            with_light<double>(light, [&](const auto& l) {
+                const auto technique = clipped(l);
+                if (!(technique.measure() > 0)) return;
+                for (int i = 0; i < 16; ++i) {
+                    constexpr double kStep = 1e-5;
+                    const auto u = grid<double>(i, 4);
+                    const auto across =
+                        technique.sample({u.x + kStep, u.y}).wi - technique.sample({u.x - kStep, u.y}).wi;
+                    const auto away =
+                        technique.sample({u.x, u.y + kStep}).wi - technique.sample({u.x, u.y - kStep}).wi;
+                    const double area = length(cross(across, away)) / (4 * kStep * kStep);
+                    worst = std::max(worst, std::fabs(change * area * technique.sample(u).pdf - 1));
+                }
+            });
+        });
+    }
+    return worst;
+}
+
+TEST(ConeClippedSolidAngleTest, DensitiesAreThoseOfTheMap) {
+    constexpr double kDifferences = 3e-5; // of differences over 2e-5
+    EXPECT_LE(jacobian_error(1), kDifferences);
+    EXPECT_GT(jacobian_error(1.0001), kDifferences);
+}
+
+/// No sample is below the surface, its point is on its ray, and it leads back to its random numbers.
+template <class T>
+void expect_valid(const RoundLight& light, T tolerance) {
+    with_light<T>(light, [&](const auto& l) {
+        const auto technique = clipped(l);
+        if (!(technique.measure() > 0)) return;
+        for (int i = 0; i < 64; ++i) {
+            const auto u = grid<T>(i, 8);
+            const auto s = technique.sample(u);
+            ASSERT_GE(s.wi.z, 0);
+            ASSERT_GE(s.p.z, 0);
+            ASSERT_GT(s.pdf, 0);
+            ASSERT_EQ(technique.pdf(s.wi), s.pdf);
+            const auto back = technique.invert(s.wi);
+            ASSERT_LE(abs(back.x - u.x), tolerance);
+            ASSERT_LE(abs(back.y - u.y), tolerance);
+        }
+    });
+}
+
+TEST(ConeClippedSolidAngleTest, SamplesAreAboveTheSurfaceInEveryPrecision) {
+    for (const Place place : {Place::ordinary, Place::at_horizon, Place::near}) {
+        for_each_light(place, 20, [](const RoundLight& light) {
+            expect_valid<float>(light, 2e-3f);
+            expect_valid<double>(light, 1e-9);
+            expect_valid<long double>(light, 1e-9L);
+        });
+    }
+}
+
+/// Expects a measure [sr] and its inverse as the density of all samples.
+template <class Technique>
+void expect_uniform(const Technique& technique, double measure) {
+    EXPECT_NEAR(technique.measure(), measure, 1e-5 * measure);
+    for (int i = 0; i < 64; ++i) {
+        const auto s = technique.sample(grid<float>(i, 8));
+        EXPECT_NEAR(s.pdf * measure, 1, 1e-4);
+        EXPECT_GE(s.wi.z, 0);
+    }
+}
+
+TEST(ConeClippedSolidAngleTest, HalfOfAllDirectionsLeadToTheLightFromInsideOrFromItsSurface) {
+    constexpr double kHalf = 2 * nusselt::kPi<double>;
+    expect_uniform(clipped(Sphere<float>{{0, 0, 0}, 1}), kHalf);
+    expect_uniform(clipped(Sphere<float>{{0.2f, -0.3f, 0.6f}, 1}), kHalf);
+    expect_uniform(clipped(Sphere<float>{{0.2f, -0.3f, -0.6f}, 1}), kHalf);
+    expect_uniform(clipped(Ellipsoid<float>{{0.1f, 0, 0.2f}, {{1, 0, 0}, {0, 0.5f, 0.1f}, {0, 0, 2}}}),
+                   kHalf);
+    expect_uniform(clipped(Sphere<float>{{0, 0, 1}, 1}), kHalf);
+    expect_uniform(clipped(Sphere<float>{{1, 0, 0}, 1}), kHalf / 2);
+    // In the plane of a disk, half of all directions meet it at no distance.
+    expect_uniform(clipped(Disk<float>{{0, 0, 0}, {0, 0, 1}, 1}), kHalf);
+    expect_uniform(clipped(Disk<float>{{0, 0, 0}, {1, 0, 0}, 1}), kHalf / 2);
+}
+
+TEST(ConeClippedSolidAngleTest, TouchingTheHorizonFromAboveClipsNothing) {
+    const double sine = 1 / std::sqrt(10.0), cosine = std::sqrt(1 - sine * sine);
+    const double cap = 2 * nusselt::kPi<double> * sine * sine / (1 + cosine);
+    expect_uniform(clipped(Sphere<float>{{3, 0, 1}, 1}), cap);
+    // The axis on the horizon: half of the cone.
+    expect_uniform(clipped(Sphere<float>{{std::sqrt(10.0f), 0, 0}, 1}), cap / 2);
+}
+
+template <class Technique>
+void expect_dark(const Technique& technique) {
+    EXPECT_EQ(technique.measure(), 0);
+    for (int i = 0; i < 16; ++i) {
+        const auto s = technique.sample(grid<float>(i, 4));
+        EXPECT_EQ(s.pdf, 0);
+        EXPECT_EQ(s.wi.z, 1);
+    }
+}
+
+TEST(ConeClippedSolidAngleTest, LightsBelowTheSurfaceAreDark) {
+    expect_dark(clipped(Sphere<float>{{0.5f, 1, -2}, 1}));
+    expect_dark(clipped(Sphere<float>{{0, 0, -1}, 1}));
+    expect_dark(clipped(Disk<float>{{0.5f, 1, -2}, {0, 0, 1}, 1}));
+    expect_dark(clipped(Disk<float>{{0.5f, 1, 2}, {0, 0, 1}, 0}));
+}
+
+} // namespace
+} // namespace nusselt_test
