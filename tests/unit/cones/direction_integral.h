@@ -56,6 +56,9 @@ public:
                 return normalize(Point{p.x, p.y, 0});
             };
             pole_ = normalize(end(middle - half) + end(middle + half));
+            contour_ = contour;
+            begin_ = middle - half;
+            end_ = middle + half;
             first_ = {-pole_.y, pole_.x, 0};
             second_ = {0, 0, 1};
         } else {
@@ -72,10 +75,7 @@ public:
     long double integral(const Density& density, long double tolerance) const {
         static const QuadratureRule rule = gauss_legendre(10);
         if (is_empty_) return 0;
-        const auto along = [&](long double angle) {
-            // The direction of an angle in the ellipse that is the projection along the pole.
-            const long double x = std::cos(angle), y = squeeze_ * std::sin(angle), squared = x * x + y * y;
-            const Point away = 1 / std::sqrt(squared) * (x * first_ + y * second_);
+        const auto towards = [&](const Point& away) {
             const long double rim = rim_towards(away);
             long double sum = 0;
             for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
@@ -83,11 +83,27 @@ public:
                 sum += rule.weights[k] * std::sin(gamma) *
                        density(std::cos(gamma) * pole_ + std::sin(gamma) * away);
             }
-            return sum * rim * squeeze_ / squared;
+            return sum * rim;
         };
-        if (is_cut_)
-            return adaptive_integral(along, 0, kPi / 2, tolerance / 2, 30) +
-                   adaptive_integral(along, kPi / 2, kPi, tolerance / 2, 30);
+        const auto along = [&](long double angle) {
+            // The direction of an angle in the ellipse that is the projection along the pole.
+            const long double x = std::cos(angle), y = squeeze_ * std::sin(angle), squared = x * x + y * y;
+            return towards(1 / std::sqrt(squared) * (x * first_ + y * second_)) * squeeze_ / squared;
+        };
+        if (is_cut_) {
+            // By the point of the contour to which a half-plane leads: thin lights are no peaks then.
+            const auto along_contour = [&](long double angle) {
+                const long double c = std::cos(angle), s = std::sin(angle);
+                const Point rim = contour_.center + c * contour_.u + s * contour_.v;
+                const Point slope = c * contour_.v - s * contour_.u;
+                const long double x = dot(first_, rim), z = std::max(rim.z, 0.0L), squared = x * x + z * z;
+                if (!(squared > 0)) return 0.0L;
+                const long double turn = (x * slope.z - z * dot(first_, slope)) / squared;
+                return std::fabs(turn) * towards(1 / std::sqrt(squared) * (x * first_ + z * second_));
+            };
+            return adaptive_integral(along_contour, begin_, (begin_ + end_) / 2, tolerance / 2, 30) +
+                   adaptive_integral(along_contour, (begin_ + end_) / 2, end_, tolerance / 2, 30);
+        }
         // Corners of linear interpolants are ends of panels.
         using Nodes = nusselt::PiecewiseLinear<long double, 8>;
         long double sum = 0;
@@ -166,6 +182,8 @@ private:
     }
 
     nusselt::hostile::RayForm form_;
+    nusselt::hostile::Contour contour_;
+    long double begin_ = 0, end_ = 0; ///< angles of the contour above the horizon, if that cuts it
     Point pole_, first_, second_;
     long double squeeze_ = 1; ///< the second semi-axis of the projection over the first one
     bool is_empty_, is_cut_;
