@@ -1,8 +1,8 @@
 #pragma once
 /// Sampling of the solid angle of the part of spheres, disks, ellipses and ellipsoids above the surface.
 ///
-/// Derived here. A light above the horizon has the samples of ConeSolidAngle. A horizon that cuts it needs another pole, on the
-/// horizon: see solid_sweep.h. Both maps are continuous.
+/// Derived here. A light above the horizon has the samples of ConeSolidAngle. A horizon that cuts it needs another
+/// pole, on the horizon: see solid_sweep.h. Both maps are continuous.
 
 #include <nusselt/cones/cone_solid_angle.h>
 #include <nusselt/cones/cosine_cone.h>
@@ -10,20 +10,19 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Places of the rim where the horizon cuts it, kConePlaces or kFineConePlaces.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr], that of the samples in any case. 1 / pdf is unbiased for
-/// the part above the horizon, and constant but for an interpolant (docs/techniques/elliptic_cone.md has numbers).
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], that of the samples in any case. 1 / pdf is
+/// unbiased for the part above the horizon, and constant but for an interpolant (docs/techniques/elliptic_cone.md has
+/// numbers).
 /// Space: shading space; the shading point is the origin, the normal +z. wi.z is not negative.
-/// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a
-/// sphere or an ellipsoid, all directions above the horizon lead to its surface.
+/// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0.
+/// From inside a sphere or an ellipsoid, all directions above the horizon lead to its surface.
 template <class Real, template <class> class Light, int Places = kConePlaces>
 class ConeClippedSolidAngle {
-    using Scalar = scalar_t<Real>;
-
 public:
     /// \param light in shading space [m].
     NUSSELT_HD explicit ConeClippedSolidAngle(const Light<Real>& light) noexcept : whole_(light), sweep_() {
@@ -43,7 +42,8 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1)^2; u.x turns around the axis, or around a pole on the horizon that cuts the light, u.y leads away.
+    /// \param u in [0, 1)^2; u.x turns around the axis, or around a pole on the horizon that cuts the light, u.y leads
+    /// away.
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         LightSample<Real> s = whole_.sample({u.x, share_ * u.y});
         // Rounding must not lead below a horizon that the light touches.

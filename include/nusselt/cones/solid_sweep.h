@@ -1,13 +1,13 @@
 #pragma once
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, by solid angle.
 ///
-/// Derived here. A ray sweeps around the pole p of cone_sweep.h, which is on the horizon. The cosine of the angle gamma from the
-/// pole is uniform from 1 to that of the rim, and the sweep has the measure
+/// Derived here. A ray sweeps around the pole p of cone_sweep.h, which is on the horizon. The cosine of the angle gamma
+/// from the pole is uniform from 1 to that of the rim, and the sweep has the measure
 ///
 ///     measure = (p . R x dR) / (|R| (|R| + p . R))
 ///
-/// with the point of the rim R that it meets. Unlike that of the cosine, it does not vanish at the ends of the horizon's arc. With
-/// z = w (3 - w^2) / 2 it has the factor 1 - w^2 in w, and so the polynomial of rim_distribution.h.
+/// with the point of the rim R that it meets. Unlike that of the cosine, it does not vanish at the ends of the
+/// horizon's arc. With z = w (3 - w^2) / 2 it has the factor 1 - w^2 in w, and so the polynomial of rim_distribution.h.
 
 #include <nusselt/cones/cone_sweep.h>
 #include <nusselt/cones/rim_distribution.h>
@@ -96,8 +96,8 @@ private:
     NUSSELT_HD static Real slope(const Real& w) noexcept {
         return Real(1.5) * ((Real(1) - w) * (Real(1) + w));
     }
-    /// The inverse of stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends, where densities are
-    /// quotients of numbers that vanish.
+    /// The inverse of stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends, where
+    /// densities are quotients of numbers that vanish.
     NUSSELT_HD static Real squeezed(const Real& z) noexcept {
         const Real angle = atan2_positive(abs(z), sqrt(max((Real(1) - z) * (Real(1) + z), Real(0))));
         const Real w = Real(2) * sincos_quarter_turn(Real(Scalar(1) / 3) * angle).sin;

@@ -1,8 +1,9 @@
 #ifndef NUSSELT_CONES_CONE_CLIPPED_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_CLIPPED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/cones/cone_clipped_solid_angle.h @ d415eb2336e8
-/// Sampling of the solid angle of the part of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()) above
-/// the surface. Twin of include/nusselt/cones/cone_clipped_solid_angle.h, which has the measure and the edge cases.
+// Follows include/nusselt/cones/cone_clipped_solid_angle.h @ 668054d42400
+/// Sampling of the solid angle of the part of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light())
+/// above the surface. Twin of include/nusselt/cones/cone_clipped_solid_angle.h, which has the measure and the edge
+/// cases.
 ///
 /// Space: shading space; the shading point is the origin, the normal +z. wi.z is not negative.
 
@@ -49,7 +50,8 @@ float cone_clipped_solid_angle_pdf(const ConeClippedSolidAngle self, vec3 wi) {
     return is_finite(density) && wi.z >= 0.0 ? density : 0.0;
 }
 
-/// \param u in [0, 1)^2; u.x turns around the axis, or around a pole on the horizon that cuts the light, u.y leads away.
+/// \param u in [0, 1)^2; u.x turns around the axis, or around a pole on the horizon that cuts the light, u.y leads
+/// away.
 LightSample cone_clipped_solid_angle_sample(const ConeClippedSolidAngle self, vec2 u) {
     if (self.is_whole) {
         LightSample s = cone_solid_angle_sample(self.whole, vec2(u.x, self.share * u.y));

@@ -22,8 +22,8 @@ float solid_sweep_stretched(float w) { return 0.5 * w * nusselt_fma(-w, w, 3.0);
 /// The derivative of solid_sweep_stretched().
 float solid_sweep_slope(float w) { return 1.5 * ((1.0 - w) * (1.0 + w)); }
 
-/// The inverse of solid_sweep_stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends, where
-/// densities are quotients of numbers that vanish.
+/// The inverse of solid_sweep_stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends,
+/// where densities are quotients of numbers that vanish.
 float solid_sweep_squeezed(float z) {
     float angle = atan2_positive(abs(z), sqrt(nusselt_max((1.0 - z) * (1.0 + z), 0.0)));
     float w = 2.0 * sincos_quarter_turn((1.0 / 3.0) * angle).sine;

@@ -1,5 +1,5 @@
-/// Tests of the clipped solid angle of spheres, disks, ellipses and ellipsoids: measures, densities and weights where the horizon
-/// cuts them, and cases that have no rim of their own, such as a point inside.
+/// Tests of the clipped solid angle of spheres, disks, ellipses and ellipsoids: measures, densities and weights where
+/// the horizon cuts them, and cases that have no rim of their own, such as a point inside.
 
 #include <algorithm>
 #include <vector>
