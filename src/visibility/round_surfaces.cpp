@@ -164,7 +164,7 @@ UnitRay::UnitRay(const RoundSurface& surface, const scene::Float3& from, const s
     : origin(to_unit(surface, to_double(from) - center_of(surface))),
       direction(to_unit(surface, to_double(along))) {}
 
-RoundCrossings::RoundCrossings(const RoundSurface& surface, const UnitRay& ray, double shrinkage)
+RoundCrossings::RoundCrossings(const RoundSurface& surface, const UnitRay& ray)
     : direction_(ray.direction), is_flat_(surface.is_flat) {
     if (is_flat_) {
         middle_ = -ray.origin.z / direction_.z;
@@ -178,8 +178,7 @@ RoundCrossings::RoundCrossings(const RoundSurface& surface, const UnitRay& ray, 
     middle_ = -dot(ray.origin, direction_) / a;
     closest_ = ray.origin + middle_ * direction_;
     // From the closest point, because the discriminant of the equation for t cancels for distant origins.
-    const double radius = 1 - shrinkage;
-    const double gap = radius * radius - dot(closest_, closest_);
+    const double gap = 1 - dot(closest_, closest_);
     if (!(gap >= 0)) return;
     half_ = std::sqrt(gap / a);
     count_ = 2;
@@ -198,11 +197,19 @@ unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, doubl
     // Solid lights are convex: from inside, only rays that end outside cross them.
     if (dot(ray.origin, ray.origin) < 1)
         return is_inside_or_near(surface, ray.origin + t_far * ray.direction) ? 0u : 2u;
-    if (dot(ray.origin, ray.direction) >= 0) return 0;
-    // From outside a slightly smaller shape counts: rays that end on the rim must not end in its shadow.
-    const RoundCrossings crossings(surface, ray, surface.shrinkage);
-    if (crossings.count() == 0 || !is_before_end(crossings.t(0))) return 0;
-    return is_before_end(crossings.t(1)) ? 3u : 1u;
+    // From outside a slightly smaller shape counts: rays that end on the rim must not end in its shadow. Most shadow rays take this
+    // way, and copies of vectors in RoundCrossings would make each wait.
+    const double a = dot(ray.direction, ray.direction);
+    const double along = dot(ray.origin, ray.direction);
+    if (along >= 0) return 0;
+    const double middle = -along / a;
+    const Double3 closest = ray.origin + middle * ray.direction;
+    const double radius = 1 - surface.shrinkage;
+    const double gap = radius * radius - dot(closest, closest);
+    if (!(gap >= 0)) return 0;
+    const double half = std::sqrt(gap / a);
+    if (!is_before_end(middle - half)) return 0;
+    return is_before_end(middle + half) ? 3u : 1u;
 }
 
 scene::Float2 texture_coordinates(const RoundSurface& surface, const Double3& point) {

@@ -36,8 +36,7 @@ struct UnitRay {
 /// Where a ray crosses a surface: up to two places, in the order of the ray.
 class RoundCrossings {
 public:
-    /// \param shrinkage share by which the radius of solid lights is smaller here
-    RoundCrossings(const RoundSurface& surface, const UnitRay& ray, double shrinkage = 0);
+    RoundCrossings(const RoundSurface& surface, const UnitRay& ray);
 
     int count() const { return count_; }
     /// As the ray counts, perhaps negative.
