@@ -189,9 +189,9 @@ struct EmbreeScene::State {
     const scene::Scene& scene;
     Device device = make_device();
     Buffer positions;
+    TracedScene traced; // before the scenes, which point to it
     std::vector<SceneHandle> objects;
     SceneHandle world, seen;
-    TracedScene traced;
 };
 
 EmbreeScene::State::State(const scene::Scene& scene_to_trace) : scene(scene_to_trace) {

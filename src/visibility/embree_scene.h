@@ -13,8 +13,9 @@ namespace nusselt::visibility {
 inline constexpr float kLargestRayCoordinate = 1e18f;
 
 /// The bounding volume hierarchy of a scene. Shadow rays see all surfaces (emitters included), camera rays
-/// also the lights that are no surfaces. Both meet the exact shape of round lights, in place of their triangles. Surfaces with an alpha below 1 are there with that probability, independently for
-/// each ray and triangle: what happens is a hash of both. Immutable, usable from several threads at once.
+/// also the lights that are no surfaces. Both meet the exact shape of round lights, in place of their triangles. Surfaces
+/// with an alpha below 1 are there with that probability, independently for each ray, triangle and crossing of a round
+/// light: what happens is a hash of these. Immutable, usable from several threads at once.
 class EmbreeScene {
 public:
     /// Builds the hierarchy with the threads of the caller's oneTBB arena.

@@ -28,9 +28,8 @@ struct HitPacket {
     alignas(4 * N) float u[N];
     float v[N];
     float t[N]; ///< of the hit along the ray; meaningless without one
-    float unit
-        [3]
-        [N]; ///< the hit in the coordinates of a round light, see scene::RoundLight; meaningless without one
+    /// The hit in the coordinates of a round light, see scene::RoundLight; meaningless without one.
+    float unit[3][N];
 };
 
 /// Functions that trace packets of N rays. Bit i of `active` is lane i. Lanes that are not active, or whose

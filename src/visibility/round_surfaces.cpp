@@ -51,21 +51,73 @@ RoundSurface make_surface(const scene::Scene& scene, std::size_t index, std::uin
     constexpr double kRounding = 4e-7;
     constexpr double kLeastShrinkage = 1e-5, kMostShrinkage = 1e-3;
     result.rounding = kRounding * largest;
-    const std::array<double, 3> s = semi_axes(light);
-    const double shortest = result.is_flat ? s[1] : s[2];
-    result.shrinkage = std::min(kLeastShrinkage + result.rounding / shortest, kMostShrinkage);
+    if (!result.is_flat)
+        result.shrinkage = std::min(kLeastShrinkage + result.rounding / semi_axes(light)[2], kMostShrinkage);
     return result;
 }
 
+/// A vector in the space of the unit sphere.
 Double3 to_unit(const RoundSurface& surface, const Double3& v) {
     const auto& m = surface.inverse;
     return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
             m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
 
-Double3 center_of(const RoundSurface& surface) {
-    return {surface.center[0], surface.center[1], surface.center[2]};
-}
+/// A ray in the space of the unit sphere.
+struct UnitRay {
+    /// \param along of any length but 0
+    UnitRay(const RoundSurface& surface, const scene::Float3& from, const scene::Float3& along)
+        : origin(to_unit(
+              surface, {from.x - surface.center[0], from.y - surface.center[1], from.z - surface.center[2]})),
+          direction(to_unit(surface, to_double(along))) {}
+
+    Double3 origin, direction;
+};
+
+/// Where a ray crosses a surface: up to two places, in the order of the ray.
+class RoundCrossings {
+public:
+    /// \param radius of the unit sphere, 1 or a little less, at which the crossings are; flat surfaces ignore it
+    RoundCrossings(const RoundSurface& surface, const UnitRay& ray, double radius = 1)
+        : ray_(ray), is_flat_(surface.is_flat) {
+        if (is_flat_) {
+            middle_ = -ray.origin.z / ray.direction.z;
+            const Double3 point = closest();
+            // Comparisons with NaN are false.
+            count_ = point.x * point.x + point.y * point.y <= 1 ? 1 : 0;
+            return;
+        }
+        const double a = dot(ray.direction, ray.direction);
+        middle_ = -dot(ray.origin, ray.direction) / a;
+        // From the closest point, because the discriminant of the equation for t cancels for distant origins.
+        const Double3 point = closest();
+        const double gap = radius * radius - dot(point, point);
+        if (!(gap >= 0)) return;
+        half_ = std::sqrt(gap / a);
+        count_ = 2;
+    }
+
+    RoundCrossings(const RoundSurface&, UnitRay&&, double = 1) = delete;
+
+    int count() const { return count_; }
+    /// As the ray counts, perhaps negative.
+    double t(int i) const { return middle_ + sign(i) * half_; }
+    /// Moved to the unit sphere, or in the unit disk.
+    Double3 point(int i) const {
+        if (!is_flat_) return normalized(closest() + (sign(i) * half_) * ray_.direction);
+        const Double3 point = closest();
+        return {point.x, point.y, 0};
+    }
+
+private:
+    static double sign(int i) { return i == 0 ? -1 : 1; }
+    Double3 closest() const { return ray_.origin + middle_ * ray_.direction; }
+
+    const UnitRay& ray_; // a copy makes each ray wait
+    double middle_ = 0, half_ = 0;
+    int count_ = 0;
+    bool is_flat_;
+};
 
 /// Whether a point lies in a solid light, or so close to it that rounding put it outside. NaN and infinity do not.
 bool is_inside_or_near(const RoundSurface& surface, const Double3& point) {
@@ -76,6 +128,28 @@ bool is_inside_or_near(const RoundSurface& surface, const Double3& point) {
                               m[2] * point.x + m[5] * point.y + m[8] * point.z};
     constexpr double kTolerance = 1e-5;
     return dot(point, point) - 1 <= 2 * (kTolerance + surface.rounding * length(gradient));
+}
+
+/// Whether a surface, as if it were everywhere, lies between the ends of a shadow ray. Rays end next to the lights that they
+/// are for: up to rounding, points on the surface see all points of it that no other surface hides.
+/// \param t_far may be infinite
+/// \returns the crossings in the way, as bits
+unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, double t_far) {
+    const auto is_before_end = [&](double t) { return t > 0 && t < t_far; };
+    if (surface.is_flat) {
+        // Rounding moves the ends of rays to the light to either side of it.
+        if (std::fabs(ray.origin.z + t_far * ray.direction.z) <= surface.rounding) return 0;
+        const RoundCrossings crossings(surface, ray);
+        return crossings.count() > 0 && is_before_end(crossings.t(0)) ? 1u : 0u;
+    }
+    // Solid lights are convex: from inside, only rays that end outside cross them.
+    if (dot(ray.origin, ray.origin) < 1)
+        return is_inside_or_near(surface, ray.origin + t_far * ray.direction) ? 0u : 2u;
+    if (dot(ray.origin, ray.direction) >= 0) return 0;
+    // From outside a slightly smaller shape counts: rays that end on the rim must not end in its shadow.
+    const RoundCrossings crossings(surface, ray, 1 - surface.shrinkage);
+    if (crossings.count() == 0 || !is_before_end(crossings.t(0))) return 0;
+    return is_before_end(crossings.t(1)) ? 3u : 1u;
 }
 
 /// A lane of a packet of Embree.
@@ -118,7 +192,8 @@ void find_hits(const RTCIntersectFunctionNArguments* arguments) {
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
         const Ray ray(rays, n, i);
-        const RoundCrossings crossings(surface, UnitRay(surface, ray.origin, ray.direction));
+        const UnitRay unit(surface, ray.origin, ray.direction);
+        const RoundCrossings crossings(surface, unit);
         for (int k = 0; k < crossings.count(); ++k) {
             const double t = crossings.t(k);
             if (!(t > RTCRayN_tnear(rays, n, i) && t < RTCRayN_tfar(rays, n, i))) continue;
@@ -159,58 +234,6 @@ void find_shadows(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 } // namespace
-
-UnitRay::UnitRay(const RoundSurface& surface, const scene::Float3& from, const scene::Float3& along)
-    : origin(to_unit(surface, to_double(from) - center_of(surface))),
-      direction(to_unit(surface, to_double(along))) {}
-
-RoundCrossings::RoundCrossings(const RoundSurface& surface, const UnitRay& ray)
-    : direction_(ray.direction), is_flat_(surface.is_flat) {
-    if (is_flat_) {
-        middle_ = -ray.origin.z / direction_.z;
-        closest_ = ray.origin + middle_ * direction_;
-        closest_.z = 0;
-        // Comparisons with NaN are false.
-        count_ = dot(closest_, closest_) <= 1 ? 1 : 0;
-        return;
-    }
-    const double a = dot(direction_, direction_);
-    middle_ = -dot(ray.origin, direction_) / a;
-    closest_ = ray.origin + middle_ * direction_;
-    // From the closest point, because the discriminant of the equation for t cancels for distant origins.
-    const double gap = 1 - dot(closest_, closest_);
-    if (!(gap >= 0)) return;
-    half_ = std::sqrt(gap / a);
-    count_ = 2;
-}
-
-Double3 RoundCrossings::point(int i) const {
-    return is_flat_ ? closest_ : normalized(closest_ + (sign(i) * half_) * direction_);
-}
-
-unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, double t_far) {
-    const auto is_before_end = [&](double t) { return t > 0 && t < t_far; };
-    if (surface.is_flat) {
-        const RoundCrossings crossings(surface, ray);
-        return crossings.count() > 0 && is_before_end(crossings.t(0)) ? 1u : 0u;
-    }
-    // Solid lights are convex: from inside, only rays that end outside cross them.
-    if (dot(ray.origin, ray.origin) < 1)
-        return is_inside_or_near(surface, ray.origin + t_far * ray.direction) ? 0u : 2u;
-    // From outside a slightly smaller shape counts: rays that end on the rim must not end in its shadow. Most shadow rays take this
-    // way, and copies of vectors in RoundCrossings would make each wait.
-    const double a = dot(ray.direction, ray.direction);
-    const double along = dot(ray.origin, ray.direction);
-    if (along >= 0) return 0;
-    const double middle = -along / a;
-    const Double3 closest = ray.origin + middle * ray.direction;
-    const double radius = 1 - surface.shrinkage;
-    const double gap = radius * radius - dot(closest, closest);
-    if (!(gap >= 0)) return 0;
-    const double half = std::sqrt(gap / a);
-    if (!is_before_end(middle - half)) return 0;
-    return is_before_end(middle + half) ? 3u : 1u;
-}
 
 scene::Float2 texture_coordinates(const RoundSurface& surface, const Double3& point) {
     constexpr double kPi = std::numbers::pi;

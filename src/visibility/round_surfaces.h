@@ -20,44 +20,10 @@ struct RoundSurface {
     std::array<double, 9> inverse; ///< rows; from world space
     std::array<float, 3> lower, upper;
     double rounding;  ///< how far single precision moves points of the surface [m]
-    double shrinkage; ///< the same as a share of the shape
+    double shrinkage; ///< of solid lights, the same as a share of the shape
     bool is_flat;
     bool is_partial; ///< whether rays meet the surface with a probability: see Presence
 };
-
-/// A ray in the space of the unit sphere.
-struct UnitRay {
-    /// \param direction of any length but 0
-    UnitRay(const RoundSurface& surface, const scene::Float3& origin, const scene::Float3& direction);
-
-    scene::Double3 origin, direction;
-};
-
-/// Where a ray crosses a surface: up to two places, in the order of the ray.
-class RoundCrossings {
-public:
-    RoundCrossings(const RoundSurface& surface, const UnitRay& ray);
-
-    int count() const { return count_; }
-    /// As the ray counts, perhaps negative.
-    double t(int i) const { return middle_ + sign(i) * half_; }
-    /// On the unit sphere, or in the unit disk.
-    scene::Double3 point(int i) const;
-
-private:
-    static double sign(int i) { return i == 0 ? -1 : 1; }
-
-    scene::Double3 closest_ = {}, direction_ = {};
-    double middle_ = 0, half_ = 0;
-    int count_ = 0;
-    bool is_flat_;
-};
-
-/// Whether a surface, as if it were everywhere, lies between the ends of a shadow ray. Rays end next to the lights that they
-/// are for: up to rounding, points on the surface see all points of it that no other surface hides.
-/// \param t_far may be infinite
-/// \returns the crossings in the way, as bits
-unsigned crossings_in_way(const RoundSurface& surface, const UnitRay& ray, double t_far);
 
 /// Texture coordinates as scene::surface() gives them. \param point on the unit sphere, or in the unit disk
 scene::Float2 texture_coordinates(const RoundSurface& surface, const scene::Double3& point);

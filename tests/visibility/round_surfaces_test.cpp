@@ -359,6 +359,49 @@ TYPED_TEST(RoundSurfaces, DoNotHideThemselves) {
     }
 }
 
+/// Shadow rays from one side of a flat light to the other.
+TYPED_TEST(RoundSurfaces, HideWhatIsBehindDisks) {
+    const int count = nusselt_test::at_effort(2000, 200'000);
+    for (const Case& c : cases()) {
+        if (!is_flat(c.light)) continue;
+        const UnitSpace space(c.light);
+        Random random(7);
+        std::vector<Ray> through, beside;
+        for (int i = 0; i < count; ++i) {
+            const Long3 direction = random.direction();
+            const long double share = 1 / std::sqrt(dot(direction, direction) - direction.z * direction.z);
+            const Long3 rim = {share * direction.x, share * direction.y, 0};
+            const Long3 way = {random.between(-1, 1), random.between(-1, 1), random.between(0.1, 2)};
+            const auto across = [&](long double radius) {
+                const Long3 middle = radius * rim;
+                return ray_between(space, middle + -1.0L * way, middle + way);
+            };
+            through.push_back(across(0.99L * std::sqrt(random.between(0, 1))));
+            beside.push_back(across(random.between(1.01, 3)));
+        }
+        const scene::Scene scene = make_scene(c.light);
+        EXPECT_EQ(this->count_blocked(scene, through, 1), count) << c.name;
+        EXPECT_EQ(this->count_blocked(scene, beside, 1), 0) << c.name;
+    }
+}
+
+/// The ends of rays are off by the rounding of coordinates far from the origin.
+TYPED_TEST(RoundSurfaces, DoNotHideDisksFarFromTheOrigin) {
+    RoundLight disk = {.model = RoundModel::ellipse, .u = {1, 0, 0}, .v = {0, 0.6f, 0.8f}, .w = {0, 0, 0}};
+    disk.center = {1000, -2000, 500};
+    const UnitSpace space(disk);
+    Random random(11);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 20'000; ++i) {
+        Long3 p = random.direction(), q = random.direction();
+        p.z = q.z = 0;
+        Long3 from = 3.0L * p;
+        from.z = random.between(0.002, 0.1);
+        rays.push_back(ray_between(space, from, q));
+    }
+    EXPECT_EQ(this->count_blocked(make_scene(disk), rays, 0.9999f), 0);
+}
+
 TYPED_TEST(RoundSurfaces, HaveTheTextureCoordinatesOfTheirTriangles) {
     for (const Case& c : cases()) {
         const scene::LightSurface surface = scene::surface(c.light, 12);
@@ -407,6 +450,22 @@ TYPED_TEST(RoundSurfaces, AreThereAsOftenAsAlphaSays) {
     EXPECT_NEAR(this->count_blocked(scene, rays, 9), 0.51 * n, 6 * std::sqrt(0.25 * n));
     scene.materials[0].alpha = 0;
     EXPECT_EQ(this->count_blocked(scene, rays, 9), 0);
+
+    // From inside, and through a disk, rays cross the surface once.
+    const RoundLight disk = {.model = RoundModel::ellipse, .u = {1, 0, 0}, .v = {0, 1, 0}, .w = {0, 0, 0}};
+    for (const RoundLight& light : {sphere({0, 0, 0}, 1), disk}) {
+        scene::Scene once = make_scene(light);
+        once.materials[0].alpha = 0.3f;
+        std::vector<Ray> outwards;
+        for (int i = 0; i < count; ++i) {
+            const Long3 p = random.direction();
+            const Long3 from = 0.5L * p;
+            outwards.push_back(is_flat(light)
+                                   ? ray_between(UnitSpace(light), {from.x, from.y, 1}, {from.x, from.y, -1})
+                                   : ray_between(UnitSpace(light), from, 3.0L * p));
+        }
+        EXPECT_NEAR(this->count_blocked(once, outwards, 1), 0.3 * n, 6 * std::sqrt(0.21 * n));
+    }
 }
 
 /// What no importer makes, but a program may.

@@ -58,8 +58,8 @@ struct Interpolation {
     Indices vertex[3];
     Real u, v;
     LaneMask active;
-    LaneMask
-        is_round; ///< round lights, where u and v are the texture coordinates, and edges the derivatives by them
+    /// Round lights, where u and v are the texture coordinates, and edges the derivatives by them.
+    LaneMask is_round;
 
     Vector vectors(const scene::Float3* attribute) const noexcept {
         const float* rows = &attribute->x;
@@ -134,8 +134,8 @@ inline Tangents position_derivatives(const Vec2<Real>& du, const Vec2<Real>& dv,
     return {dv.y * e1 - dv.x * e2, du.x * e2 - du.y * e1, dot(n, cross(e1, e2))};
 }
 
-/// The tangents that pbrt v3 uses instead on meshes with normals, unlike on spheres and disks. They are orthonormal in object space, and both are
-/// reversed.
+/// The tangents that pbrt v3 uses instead on meshes with normals, unlike on spheres and disks. They are orthonormal in
+/// object space, and both are reversed.
 /// \param metric the derivatives, which the other lanes keep
 inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
                               const InstanceLanes& instances, const Indices& material, const Vec2<Real>& du,
@@ -166,7 +166,8 @@ inline Tangents bump_tangents(const render_cpu::KernelScene& scene, const Interp
 
 /// A normal perturbed by the normal map or the bump map of each lane; docs/materials.md has the formulas.
 /// \param n     unit, on the front side
-/// \param e1,e2 edges of the triangle from its first vertex, in the world
+/// \param e1,e2 edges of the triangle from its first vertex, in the world; for round lights, the derivatives of the
+///              position by the texture coordinates
 inline Vector perturbed_normal(const render_cpu::KernelScene& scene, const Interpolation& interpolation,
                                const InstanceLanes& instances, const Indices& material, const Vec2<Real>& uv,
                                const Vector& e1, const Vector& e2, const Vector& n) noexcept {

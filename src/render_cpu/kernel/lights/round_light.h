@@ -84,8 +84,8 @@ struct LocalRound : Light<Real> {
             const Real half = dot(origin, direction);
             const Real distance = length(origin);
             const Real root = half * half - a * ((distance - Real(1)) * (distance + Real(1)));
-            // No shorter, because a ray needs a direction. Along the surface, this is far less than what shadow rays take for the same
-            // point.
+            // No shorter, because a ray needs a direction. Along the surface, this is far less than what shadow rays
+            // take for the same point.
             constexpr float kShortest = 1e-3f;
             const Real way = max(sqrt(max(root, Real(0))) - half, Real(kShortest) * sqrt(a));
             sample.p = select(inside, (way / a) * sample.wi, sample.p);
