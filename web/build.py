@@ -34,7 +34,7 @@ def registry():
     """How GLSL names the techniques that the page has, by their names in C++."""
     named = set(re.findall(r'"(\w+)"', (ROOT / "web/library/techniques.ts").read_text()))
     rows = json.loads((ROOT / "include/nusselt/techniques.json").read_text())
-    names = {row["name"]: row["glsl"] for row in rows}
+    names = {row["name"]: row["glsl"] for row in rows if "glsl" in row}
     for published in (row["published"] for row in rows if "published" in row):
         file = re.sub(r"(?<!^)([A-Z])", r"_\1", published).lower()
         names[published] = {"file": f"related/{file}", "struct": published}

@@ -12,7 +12,7 @@ fail() {
 rm -rf "$work"
 mkdir -p "$work"
 "$here/../../scripts/pack.sh" "$what" "$build" "$work/packed.tar.xz"
-[ "$(stat -c %s "$work/packed.tar.xz")" -le 21000000 ] || fail "larger than 21 MB"
+[ "$(stat -c %s "$work/packed.tar.xz")" -le 22000000 ] || fail "larger than 22 MB"
 tar -C "$work" -xf "$work/packed.tar.xz"
 root=$(find "$work" -mindepth 1 -maxdepth 1 -type d)
 "$here/check_folder.sh" "$root"

@@ -33,7 +33,8 @@ public:
         const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
         // Fractions of the measure must not be denormal: processors may flush them to zero.
         const auto positive = measure > Real(4 * std::numeric_limits<Scalar>::min());
-        const auto lit = map_.is_cut() & cone.is_visible & positive & is_finite(inverse);
+        const auto fits = is_finite(inverse);
+        const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
         measure_ = select(lit, measure, Real(0));
         inverse_measure_ = select(lit, inverse, Real(0));
     }
