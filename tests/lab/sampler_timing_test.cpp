@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 namespace nusselt::lab {
@@ -25,13 +26,18 @@ const SamplerTiming* find(const std::vector<SamplerTiming>& rows, const std::str
     return nullptr;
 }
 
+/// The name of the suite in techniques.json.
+struct TimingSuite {
+    static constexpr std::string_view kName = "timing";
+};
+
 TEST(SamplerTiming, HasARowForEachTechniqueInScalarAndPackCode) {
     SamplerTimingSettings settings;
     settings.repetitions = 3;
     settings.isa = "sse42";
     const auto rows = time_samplers(settings);
     using namespace hostile;
-    KindsWithBounds<4>::for_each([&]<class Kind> {
+    TestedBy<TimingSuite, KindsWithBounds<4>>::for_each([&]<class Kind> {
         for (const char* code : {"scalar", "packs of 4, per lane"}) {
             EXPECT_NE(find(rows, Kind::kName, code), nullptr) << Kind::kName << ", " << code;
             if (std::is_same_v<typename Kind::template Published<float>, Absent>) continue;
