@@ -29,15 +29,6 @@ struct Case {
         0.05; ///< of shadow rays, for the test of the test; 0 for lights that light nothing that is seen
 };
 
-RoundLight sphere(const Float3& center, float radius, RoundModel model = RoundModel::ellipsoid) {
-    return {.model = model,
-            .center = center,
-            .u = {radius, 0, 0},
-            .v = {0, radius, 0},
-            .w = {0, 0, radius},
-            .radiance = {3, 2, 1}};
-}
-
 RoundLight ellipse(const Float3& center, const Float3& u, const Float3& v) {
     return {.model = RoundModel::ellipse,
             .center = center,

@@ -64,4 +64,15 @@ inline void add_tessellated_light(scene::Scene& scene, const scene::RoundLight& 
              .two_sided = light.two_sided});
 }
 
+/// A sphere that emits outwards, or inwards if its model is hollow. \param radius [m]
+inline scene::RoundLight sphere(const Float3& center, float radius,
+                                scene::RoundModel model = scene::RoundModel::ellipsoid) {
+    return {.model = model,
+            .center = center,
+            .u = {radius, 0, 0},
+            .v = {0, radius, 0},
+            .w = {0, 0, radius},
+            .radiance = {3, 2, 1}};
+}
+
 } // namespace nusselt::render_test

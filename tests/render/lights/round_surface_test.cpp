@@ -15,15 +15,6 @@ using scene::Double3;
 using scene::RoundLight;
 using scene::RoundModel;
 
-RoundLight sphere(const Float3& center, float radius, RoundModel model = RoundModel::ellipsoid) {
-    return {.model = model,
-            .center = center,
-            .u = {radius, 0, 0},
-            .v = {0, radius, 0},
-            .w = {0, 0, radius},
-            .radiance = {3, 2, 1}};
-}
-
 image::Image render(const scene::Scene& scene, int samples) {
     render::RenderSettings settings;
     settings.pixel_position = render::PixelPosition::center;
