@@ -38,6 +38,10 @@ public:
         alpha_ = detail::over_positive(cone.a, a1);
         beta_ = detail::over_positive(cone.b, b1);
         disk_per_radius_ = {detail::over_positive(cone.c, a1), detail::over_positive(cone.c, b1)};
+        // Rounding chooses the axes of nearly circular cones, so that the turn starts at the x-axis instead.
+        const Real across = detail::hypotenuse(e1_.x, e2_.x);
+        start_ = {select(across > Real(0), detail::over_positive(e1_.x, across), Real(1)),
+                  detail::over_positive(e2_.x, across)};
         const auto rises = e3_.z > Real(0);
         const Real inverse = Real(1) / select(rises, e3_.z, Real(1));
         odd_ = {e1_.z * alpha_ * inverse, e2_.z * beta_ * inverse};
@@ -55,19 +59,22 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1)^2; u.x turns around the axis, u.y leads from one side of the cone to the other. Continuous in both.
+    /// \param u in [0, 1)^2; u.x turns around the axis, from the x-axis, u.y leads from one side of the cone to the other.
+    /// Continuous in both.
     NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const auto turn = sincos_half_turn(Real(kPi<Scalar>) * u.x);
-        const Ray ray = ray_at({turn.cos, turn.sin});
+        const Vec2<Real> direction{start_.x * turn.cos - start_.y * turn.sin,
+                                   start_.y * turn.cos + start_.x * turn.sin};
+        const Ray ray = ray_at(direction);
         const Real kappa = multiply_add(Real(2), u.y, Real(-1)) + ray.eta * ray.ratio;
         const Real zeta = select(kappa < Real(0), -ray.eta, ray.eta);
         const Real goal = min(abs(kappa), multiply_add(zeta, ray.ratio, Real(1)));
         const Real radius = solve(ray, zeta, goal);
         const Real r = select(kappa < Real(0), -radius, radius);
         const Real z = complement_of(ray, radius);
-        const Vec3<Real> wi = (r * alpha_ * turn.cos) * e1_ + (r * beta_ * turn.sin) * e2_ + z * e3_;
+        const Vec3<Real> wi = (r * alpha_ * direction.x) * e1_ + (r * beta_ * direction.y) * e2_ + z * e3_;
         const Real inverse = detail::over_positive(r, z);
-        return {wi, {disk_per_radius_.x * turn.cos * inverse, disk_per_radius_.y * turn.sin * inverse}};
+        return {wi, {disk_per_radius_.x * direction.x * inverse, disk_per_radius_.y * direction.y * inverse}};
     }
 
     /// The density of directions in the cone over their cosine [1/sr].
@@ -75,15 +82,19 @@ public:
 
     /// The random numbers for which sample() returns a unit direction in the cone.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
-        const Real x = detail::over_positive(abs(dot(wi, e1_)), alpha_),
-                   y = detail::over_positive(abs(dot(wi, e2_)), beta_);
-        const Real radius = min(detail::hypotenuse(x, y), Real(1));
-        const Real sign = select(dot(wi, e2_) < Real(0), Real(-1), Real(1));
-        const Real cosine = copysign(x, sign * dot(wi, e1_));
-        const Real angle = atan2_positive(y, cosine);
-        const Real inverse = detail::over_positive(Real(1), detail::hypotenuse(x, y));
-        const Ray ray = ray_at({select(inverse > Real(0), cosine * inverse, Real(1)), y * inverse});
-        const Real f = value(ray, sign * ray.eta, radius);
+        const Real e1 = dot(wi, e1_), e2 = dot(wi, e2_);
+        const Vec2<Real> end{copysign(detail::over_positive(abs(e1), alpha_), e1),
+                             copysign(detail::over_positive(abs(e2), beta_), e2)};
+        const Real length = detail::hypotenuse(end.x, end.y);
+        const Real inverse = detail::over_positive(Real(1), length);
+        const Vec2<Real> direction{select(inverse > Real(0), end.x * inverse, start_.x),
+                                   select(inverse > Real(0), end.y * inverse, start_.y)};
+        // The half of the turn to which the diameter belongs.
+        const Real sine = start_.x * direction.y - start_.y * direction.x;
+        const Real sign = select(sine < Real(0), Real(-1), Real(1));
+        const Real angle = atan2_positive(abs(sine), sign * dot(start_, direction));
+        const Ray ray = ray_at(sign * direction);
+        const Real f = value(ray, sign * ray.eta, min(length, Real(1)));
         return {below_one(Real(1 / kPi<Scalar>) * angle),
                 below_one(Real(0.5) * (Real(1) + (sign * f - ray.eta * ray.ratio)))};
     }
@@ -154,13 +165,14 @@ private:
     Real alpha_, beta_;          ///< of the ellipse that is the projection along the axis
     Vec2<Real> disk_per_radius_; ///< the disk of the cone per disk of the ellipse, both divided by the cosine
     Vec2<Real> odd_;
+    Vec2<Real> start_; ///< of the turn, a unit vector
     Real measure_, inverse_measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.e1_, self.e2_, self.e3_, self.alpha_, self.beta_, self.disk_per_radius_, self.odd_,
-              self.measure_, self.inverse_measure_);
+              self.start_, self.measure_, self.inverse_measure_);
     }
 };
 

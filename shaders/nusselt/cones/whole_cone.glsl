@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ df1d79ba23be
+// Follows include/nusselt/cones/whole_cone.h @ bde9f67e8ade
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
@@ -16,6 +16,7 @@ struct WholeCone {
     float alpha, beta;    ///< of the ellipse that is the projection along the axis
     vec2 disk_per_radius; ///< the disk of the cone per disk of the ellipse, both divided by the cosine
     vec2 odd;
+    vec2 start;    ///< of the turn, a unit vector
     float measure; ///< projected solid angle [sr]
     float inverse_measure;
 };
@@ -31,6 +32,9 @@ WholeCone make_whole_cone(const EllipticCone cone) {
     self.alpha = over_positive(cone.a, a1);
     self.beta = over_positive(cone.b, b1);
     self.disk_per_radius = vec2(over_positive(cone.c, a1), over_positive(cone.c, b1));
+    // Rounding chooses the axes of nearly circular cones, so that the turn starts at the x-axis instead.
+    float across = hypotenuse(cone.e1.x, cone.e2.x);
+    self.start = across > 0.0 ? vec2(cone.e1.x, cone.e2.x) / across : vec2(1.0, 0.0);
     bool rises = cone.e3.z > 0.0;
     float inverse = 1.0 / (rises ? cone.e3.z : 1.0);
     self.odd = vec2(cone.e1.z * self.alpha * inverse, cone.e2.z * self.beta * inverse);
@@ -93,34 +97,38 @@ float whole_cone_solve(const WholeConeRay ray, float zeta, float goal) {
     return r;
 }
 
-/// \param u in [0, 1)^2; u.x turns around the axis, u.y leads from one side of the cone to the other. Continuous in
-///          both.
+/// \param u in [0, 1)^2; u.x turns around the axis, from the x-axis, u.y leads from one side of the cone to the
+///          other. Continuous in both.
 ConeSample whole_cone_sample(const WholeCone self, vec2 u) {
     SinCos turn = sincos_half_turn(kNusseltPi * u.x);
-    WholeConeRay ray = whole_cone_ray(self, vec2(turn.cosine, turn.sine));
+    vec2 direction = vec2(self.start.x * turn.cosine - self.start.y * turn.sine,
+                          self.start.y * turn.cosine + self.start.x * turn.sine);
+    WholeConeRay ray = whole_cone_ray(self, direction);
     float kappa = nusselt_fma(2.0, u.y, -1.0) + ray.eta * ray.ratio;
     float zeta = kappa < 0.0 ? -ray.eta : ray.eta;
     float goal = nusselt_min(abs(kappa), nusselt_fma(zeta, ray.ratio, 1.0));
     float radius = whole_cone_solve(ray, zeta, goal);
     float r = kappa < 0.0 ? -radius : radius;
     float z = whole_cone_complement(ray, radius);
-    vec3 wi = (r * self.alpha * turn.cosine) * self.e1 + (r * self.beta * turn.sine) * self.e2 + z * self.e3;
+    vec3 wi = (r * self.alpha * direction.x) * self.e1 + (r * self.beta * direction.y) * self.e2 + z * self.e3;
     float inverse = over_positive(r, z);
-    return ConeSample(wi, self.disk_per_radius * vec2(turn.cosine * inverse, turn.sine * inverse));
+    return ConeSample(wi, self.disk_per_radius * direction * inverse);
 }
 
 /// The random numbers for which the sample is a unit direction in the cone.
 vec2 whole_cone_invert(const WholeCone self, vec3 wi) {
-    float x = over_positive(abs(dot(wi, self.e1)), self.alpha);
-    float y = over_positive(abs(dot(wi, self.e2)), self.beta);
-    float len = hypotenuse(x, y);
-    float side = dot(wi, self.e2) < 0.0 ? -1.0 : 1.0;
-    float cosine = copysign(x, side * dot(wi, self.e1));
+    float e1 = dot(wi, self.e1), e2 = dot(wi, self.e2);
+    vec2 end = vec2(copysign(over_positive(abs(e1), self.alpha), e1), copysign(over_positive(abs(e2), self.beta), e2));
+    float len = hypotenuse(end.x, end.y);
     float inverse = over_positive(1.0, len);
-    WholeConeRay ray = whole_cone_ray(self, inverse > 0.0 ? vec2(cosine, y) * inverse : vec2(1.0, 0.0));
+    vec2 direction = inverse > 0.0 ? end * inverse : self.start;
+    // The half of the turn to which the diameter belongs.
+    float sine = self.start.x * direction.y - self.start.y * direction.x;
+    float side = sine < 0.0 ? -1.0 : 1.0;
+    WholeConeRay ray = whole_cone_ray(self, side * direction);
     float f = whole_cone_value(ray, side * ray.eta, nusselt_min(len, 1.0));
-    return vec2(below_one((1.0 / kNusseltPi) * atan2_positive(y, cosine)),
-                below_one(0.5 * (1.0 + (side * f - ray.eta * ray.ratio))));
+    float angle = atan2_positive(abs(sine), side * dot(self.start, direction));
+    return vec2(below_one((1.0 / kNusseltPi) * angle), below_one(0.5 * (1.0 + (side * f - ray.eta * ray.ratio))));
 }
 
 #endif

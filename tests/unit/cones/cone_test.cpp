@@ -237,6 +237,38 @@ void expect_dark(const Light& light) {
     EXPECT_EQ(technique.pdf({0, 0, 1}), 0);
 }
 
+TEST(ConeProjectedSolidAngleTest, SamplesOfCircularConesDoNotDependOnTheirAxes) {
+    using nusselt::WholeCone;
+    // Without the start of the turn at the x-axis, the samples would turn with the axes, by up to the width of the light.
+    const Vec3<float> axis = normalize(Vec3<float>{0.3f, -0.2f, 1.0f});
+    const auto frame = nusselt::Frame<float>::from_normal(axis);
+    for (const float tangent : {1e-4f, 0.2f, 0.7f}) {
+        for (int i = 0; i < 64; ++i) {
+            const Vec2<float> u{(static_cast<float>(i % 8) + 0.5f) / 8, (static_cast<float>(i / 8) + 0.5f) / 8};
+            const auto sample_of = [&](float angle) {
+                nusselt::EllipticCone<float> cone{};
+                cone.e1 = std::cos(angle) * frame.t + std::sin(angle) * frame.b;
+                cone.e2 = std::cos(angle) * frame.b - std::sin(angle) * frame.t;
+                cone.e3 = axis;
+                cone.a = cone.b = tangent;
+                cone.c = 1;
+                cone.is_visible = true;
+                return WholeCone<float, 2>(cone);
+            };
+            const Vec3<float> expected = sample_of(0).sample(u).wi;
+            for (const float angle : {0.1f, 1.0f, 2.0f, 3.0f, 4.5f}) {
+                const auto cone = sample_of(angle);
+                const Vec3<float> wi = cone.sample(u).wi;
+                EXPECT_LT(length(wi - expected), 1e-5f * tangent + 3e-7f) << tangent << " " << angle;
+                if (tangent < 0.1f) continue;
+                const Vec2<float> inverse = cone.invert(wi);
+                EXPECT_NEAR(inverse.x, u.x, 1e-5f);
+                EXPECT_NEAR(inverse.y, u.y, 1e-5f);
+            }
+        }
+    }
+}
+
 TEST(ConeProjectedSolidAngleTest, LightsWithoutExtentAreDark) {
     expect_dark(Disk<float>{{0, 1, 1}, {0, 0, 1}, 0});
     expect_dark(Disk<float>{{0, 1, 1}, {1, 0, 0}, 0.25f}); // edge-on
