@@ -243,35 +243,42 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     const Vec3<Real> e2 =
         select(p > Real(kTiny<Scalar>), normalize(side), Frame<Real>::from_normal(normal).t);
     const Vec3<Real> m = cross(e2, normal);
-    const Real near = detail::hypotenuse(h, p - radius), far = detail::hypotenuse(h, p + radius);
+    // Squares that underflow belong to points on the rim.
+    const Real near = sqrt(multiply_add(h, h, (p - radius) * (p - radius)));
+    const Real far = sqrt(multiply_add(h, h, (p + radius) * (p + radius)));
     const Real distance = length(centre);
     const Real power = (distance - radius) * (distance + radius);
     const auto within = power < Real(0);
 
     // Half of the angle between the rays to the nearest and the farthest point.
     const Real across = Real(2) * radius * h, along = near * far + abs(power);
-    const Real norm = detail::hypotenuse(across, along);
+    const Real norm = sqrt(multiply_add(across, across, along * along));
     const auto visible = (norm > Real(0)) & (near > Real(0)) & (radius > Real(0));
     const Real inverse_norm = Real(1) / select(visible, norm, Real(1));
     const Real product = select(visible, near * far, Real(1));
     const Real sum = select(visible, near + far, Real(1));
     const Real delta = (Real(4) * radius * p) / (sum * sum); // the hyperbolic tangent of the rapidity
-    const Real gain = sum / (Real(2) * sqrt(product));
+    const Real inverse_mean = Real(1) / sqrt(product);
+    const Real gain = Real(0.5) * sum * inverse_mean;
 
     DiskCone<Real> result;
     EllipticCone<Real>& cone = result.cone;
     cone.a = select(within, along, across) * inverse_norm;
     cone.c = select(within, across, along) * inverse_norm;
-    cone.b = radius / sqrt(product);
+    cone.b = radius * inverse_mean;
 
     // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the normal.
-    const auto over_disk = p < radius;
-    const Real lateral = select(
-        over_disk, detail::over_positive(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
-        (p - radius) * far + (p + radius) * near);
-    const Real upright = copysign(select(over_disk, sum, h * sum), signed_height);
-    const Vec3<Real> close = lateral * m + upright * normal;
-    const Vec3<Real> axis = normalize(select(within, close, centre - (delta * radius) * m));
+    Vec3<Real> bisector = centre - (delta * radius) * m;
+    if (any(within)) {
+        const auto over_disk = p < radius;
+        const Real lateral = select(
+            over_disk,
+            detail::over_positive(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
+            (p - radius) * far + (p + radius) * near);
+        const Real upright = copysign(select(over_disk, sum, h * sum), signed_height);
+        bisector = select(within, lateral * m + upright * normal, bisector);
+    }
+    const Vec3<Real> axis = normalize(bisector);
     cone.e3 = select(dot(axis, axis) > Real(0), axis, normal);
     // The axis keeps its height; the others are perpendicular to it.
     const Vec3<Real> e1 = normalize(cross(e2, cone.e3));

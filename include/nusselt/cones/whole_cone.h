@@ -34,10 +34,11 @@ public:
     /// \param cone above the horizon; others give any density.
     NUSSELT_HD explicit WholeCone(const EllipticCone<Real>& cone) noexcept
         : e1_(cone.e1), e2_(cone.e2), e3_(cone.e3) {
-        const Real a1 = detail::hypotenuse(cone.a, cone.c), b1 = detail::hypotenuse(cone.b, cone.c);
-        alpha_ = detail::over_positive(cone.a, a1);
-        beta_ = detail::over_positive(cone.b, b1);
-        disk_per_radius_ = {detail::over_positive(cone.c, a1), detail::over_positive(cone.c, b1)};
+        const Real a1 = detail::over_positive(Real(1), detail::hypotenuse(cone.a, cone.c));
+        const Real b1 = detail::over_positive(Real(1), detail::hypotenuse(cone.b, cone.c));
+        alpha_ = a1 * cone.a;
+        beta_ = b1 * cone.b;
+        disk_per_radius_ = {a1 * cone.c, b1 * cone.c};
         // Rounding chooses the axes of nearly circular cones, so that the turn starts at the x-axis instead.
         const Real across = detail::hypotenuse(e1_.x, e2_.x);
         start_ = {select(across > Real(0), detail::over_positive(e1_.x, across), Real(1)),

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ dd70c8ba6e8d
+// Follows include/nusselt/cones/elliptic_cone.h @ 115a357f1c8b
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
