@@ -271,10 +271,10 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     Vec3<Real> bisector = centre - (delta * radius) * m;
     if (any(within)) {
         const auto over_disk = p < radius;
-        const Real lateral = select(
-            over_disk,
-            detail::over_positive(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
-            (p - radius) * far + (p + radius) * near);
+        const Real lateral =
+            select(over_disk,
+                   detail::over_positive(Real(4) * h * radius * p, (p + radius) * near + (radius - p) * far),
+                   (p - radius) * far + (p + radius) * near);
         const Real upright = copysign(select(over_disk, sum, h * sum), signed_height);
         bisector = select(within, lateral * m + upright * normal, bisector);
     }

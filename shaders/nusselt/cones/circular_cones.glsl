@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CIRCULAR_CONES_GLSL
 #define NUSSELT_CONES_CIRCULAR_CONES_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ dd70c8ba6e8d
+// Follows include/nusselt/cones/elliptic_cone.h @ 115a357f1c8b
 /// The cones of spheres and disks without iteration. Twin of the second half of include/nusselt/cones/elliptic_cone.h.
 
 #include "../cones/elliptic_cone.glsl"
@@ -38,8 +38,9 @@ EllipticCone cone_of_disk(vec3 centre, vec3 normal, float radius) {
     float p = nusselt_length(nusselt_cross(normal, centre));
     float signed_height = dot(normal, centre);
     float h = abs(signed_height);
-    float near = hypotenuse(h, p - radius);
-    float far = hypotenuse(h, p + radius);
+    // Squares that underflow belong to points on the rim.
+    float near = sqrt(nusselt_fma(h, h, (p - radius) * (p - radius)));
+    float far = sqrt(nusselt_fma(h, h, (p + radius) * (p + radius)));
     float distance = nusselt_length(centre);
     float power = (distance - radius) * (distance + radius);
     bool within = power < 0.0;
@@ -47,18 +48,19 @@ EllipticCone cone_of_disk(vec3 centre, vec3 normal, float radius) {
     // Half of the angle between the rays to the nearest and the farthest point.
     float across = 2.0 * radius * h;
     float along = near * far + abs(power);
-    float norm = hypotenuse(across, along);
+    float norm = sqrt(nusselt_fma(across, across, along * along));
     bool visible = norm > 0.0 && near > 0.0 && radius > 0.0;
     float inverse_norm = 1.0 / (visible ? norm : 1.0);
     float product = visible ? near * far : 1.0;
     float sum = visible ? near + far : 1.0;
     float delta = (4.0 * radius * p) / (sum * sum); // the hyperbolic tangent of the rapidity
-    float gain = sum / (2.0 * sqrt(product));
+    float inverse_mean = 1.0 / sqrt(product);
+    float gain = 0.5 * sum * inverse_mean;
 
     EllipticCone cone;
     cone.a = (within ? along : across) * inverse_norm;
     cone.c = (within ? across : along) * inverse_norm;
-    cone.b = radius / sqrt(product);
+    cone.b = radius * inverse_mean;
 
     // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the normal.
     bool over_disk = p < radius;

@@ -27,11 +27,11 @@ WholeCone make_whole_cone(const EllipticCone cone) {
     self.e1 = cone.e1;
     self.e2 = cone.e2;
     self.e3 = cone.e3;
-    float a1 = hypotenuse(cone.a, cone.c);
-    float b1 = hypotenuse(cone.b, cone.c);
-    self.alpha = over_positive(cone.a, a1);
-    self.beta = over_positive(cone.b, b1);
-    self.disk_per_radius = vec2(over_positive(cone.c, a1), over_positive(cone.c, b1));
+    float a1 = over_positive(1.0, hypotenuse(cone.a, cone.c));
+    float b1 = over_positive(1.0, hypotenuse(cone.b, cone.c));
+    self.alpha = a1 * cone.a;
+    self.beta = b1 * cone.b;
+    self.disk_per_radius = vec2(a1 * cone.c, b1 * cone.c);
     // Rounding chooses the axes of nearly circular cones, so that the turn starts at the x-axis instead.
     float across = hypotenuse(cone.e1.x, cone.e2.x);
     self.start = across > 0.0 ? vec2(cone.e1.x, cone.e2.x) / across : vec2(1.0, 0.0);

@@ -244,7 +244,8 @@ TEST(ConeProjectedSolidAngleTest, SamplesOfCircularConesDoNotDependOnTheirAxes) 
     const auto frame = nusselt::Frame<float>::from_normal(axis);
     for (const float tangent : {1e-4f, 0.2f, 0.7f}) {
         for (int i = 0; i < 64; ++i) {
-            const Vec2<float> u{(static_cast<float>(i % 8) + 0.5f) / 8, (static_cast<float>(i / 8) + 0.5f) / 8};
+            const Vec2<float> u{(static_cast<float>(i % 8) + 0.5f) / 8,
+                                (static_cast<float>(i / 8) + 0.5f) / 8};
             const auto sample_of = [&](float angle) {
                 nusselt::EllipticCone<float> cone{};
                 cone.e1 = std::cos(angle) * frame.t + std::sin(angle) * frame.b;
