@@ -26,8 +26,7 @@ ConeSweep make_cone_sweep(const EllipticCone cone) {
     ConeSweep self;
     self.map = make_rim_map(cone);
     float value[kNusseltRimNodes];
-    // Without NUSSELT_UNROLL: drivers would compile 16 copies of the density.
-    for (int i = 0; i < kNusseltRimNodes; ++i)
+    NUSSELT_LOOP for (int i = 0; i < kNusseltRimNodes; ++i)
         value[i] = rim_map_density(self.map, rim_map_turned(self.map, kNusseltRimNode[i]));
     self.rim = make_rim_distribution(value);
     float measure = rim_distribution_integral(self.rim) * rim_map_scale(self.map);

@@ -12,7 +12,7 @@ float cube_root(float x) {
     // x^(5/16) is close enough for two steps of Halley's method.
     float fourth = sqrt(sqrt(x));
     float r = 0.86 * fourth * sqrt(sqrt(fourth));
-    for (int i = 0; i < 2; ++i) {
+    NUSSELT_LOOP for (int i = 0; i < 2; ++i) {
         float cube = r * r * r;
         float denominator = cube + cube + x;
         r = r * ((cube + (x + x)) / (denominator > 0.0 ? denominator : 1.0));

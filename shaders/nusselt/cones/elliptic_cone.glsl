@@ -132,8 +132,7 @@ EllipticCone cone_of_columns(const ConeColumns k, vec3 front) {
 ///               ellipse.
 EllipticCone cone_of_ellipse(vec3 u, vec3 v, vec3 centre, vec3 front) {
     ConeColumns k = ConeColumns(u, v, centre, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
-    // Without NUSSELT_UNROLL: no array is indexed, and drivers compile one sweep sooner than four.
-    for (int i = 0; i < 4; ++i) {
+    NUSSELT_LOOP for (int i = 0; i < 4; ++i) {
         cone_columns_turn(k);
         boost_columns(k.u, k.c, k.lu, k.lc);
         boost_columns(k.v, k.c, k.lv, k.lc);

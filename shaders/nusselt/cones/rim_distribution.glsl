@@ -160,7 +160,7 @@ float rim_distribution_invert(RimDistribution self, float u) {
     if (!self.is_polynomial) return z;
     // Where the interpolants are close enough for the polynomial to be used, two steps have errors below 1e-6.
     goal = u * rim_distribution_integral(self);
-    for (int i = 0; i < 2; ++i) {
+    NUSSELT_LOOP for (int i = 0; i < 2; ++i) {
         float slope = rim_polynomial_value(self, z);
         float step = slope > 0.0 ? (rim_polynomial_below(self, z) - goal) / slope : 0.0;
         z = nusselt_min(nusselt_max(z - step, -1.0), 1.0);

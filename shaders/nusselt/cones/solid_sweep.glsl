@@ -35,8 +35,7 @@ SolidSweep make_solid_sweep(const EllipticCone cone) {
     SolidSweep self;
     self.map = make_rim_map(cone);
     float value[kNusseltRimNodes];
-    // Without NUSSELT_UNROLL: drivers would compile 16 copies of the density.
-    for (int i = 0; i < kNusseltRimNodes; ++i) {
+    NUSSELT_LOOP for (int i = 0; i < kNusseltRimNodes; ++i) {
         float w = kNusseltRimNode[i];
         RimTurn turn = rim_map_turned(self.map, solid_sweep_stretched(w));
         value[i] = solid_sweep_slope(w) * rim_map_solid_density(self.map, turn);

@@ -85,7 +85,7 @@ float whole_cone_solve(const WholeConeRay ray, float zeta, float goal) {
     float z = zeta * ray.ratio;
     float guess = nusselt_min(sqrt(goal / nusselt_max(1.0 + z, kNusseltEpsilon)), 1.0);
     float r = nusselt_min(sqrt(goal / nusselt_max(nusselt_fma(z, guess, 1.0), kNusseltEpsilon)), 1.0);
-    for (int i = 0; i < 2; ++i) {
+    NUSSELT_LOOP for (int i = 0; i < 2; ++i) {
         float w = nusselt_max(whole_cone_complement(ray, r), 9.31322574615478515625e-10);
         float inverse = 1.0 / w;
         float f = whole_cone_value(ray, zeta, r) - goal;

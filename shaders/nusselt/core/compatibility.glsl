@@ -24,6 +24,12 @@ const bool kNusseltFusedFma = bool(NUSSELT_FUSED_FMA);
 #define NUSSELT_UNROLL
 #endif
 
+/// Before each loop with a long body of which a compiler should not make copies. With [[dont_unroll]] (the same extension)
+/// compilers that unroll all short counts take far less time and memory.
+#ifndef NUSSELT_LOOP
+#define NUSSELT_LOOP
+#endif
+
 #if NUSSELT_MAX_VERTICES < 3 || NUSSELT_MAX_VERTICES > 9
 #error NUSSELT_MAX_VERTICES must be 3 to 9
 #endif
