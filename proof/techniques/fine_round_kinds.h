@@ -14,6 +14,11 @@ struct FineRoundKind : Coarse {
     using Technique = ConeProjectedSolidAngle<Real, Shape, kConeSteps<Real>, kFineConePlaces>;
 };
 template <class Coarse, template <class> class Shape>
+struct FineClippedRoundKind : Coarse {
+    template <class Real>
+    using Technique = ConeClippedSolidAngle<Real, Shape, kFineConePlaces>;
+};
+template <class Coarse, template <class> class Shape>
 struct FineRoundOnLobeKind : Coarse {
     template <class Real>
     using Technique = WithLobe<ConeLtc<Real, Shape, kConeSteps<Real>, kFineConePlaces>>;
@@ -25,6 +30,12 @@ struct FineDiskKind : FineRoundKind<DiskProjectedSolidAngleKind, Disk> {
 struct FineEllipsoidKind : FineRoundKind<EllipsoidProjectedSolidAngleKind, Ellipsoid> {
     static constexpr const char* kName = "FineEllipsoidProjectedSolidAngle";
 };
+struct FineClippedSphereKind : FineClippedRoundKind<SphereClippedSolidAngleKind, Sphere> {
+    static constexpr const char* kName = "FineSphereClippedSolidAngle";
+};
+struct FineClippedEllipseKind : FineClippedRoundKind<EllipseClippedSolidAngleKind, Ellipse> {
+    static constexpr const char* kName = "FineEllipseClippedSolidAngle";
+};
 struct FineSphereOnLobeKind : FineRoundOnLobeKind<SphereLtcKind, Sphere> {
     static constexpr const char* kName = "FineSphereLtc";
 };
@@ -32,8 +43,9 @@ struct FineEllipseOnLobeKind : FineRoundOnLobeKind<EllipseLtcKind, Ellipse> {
     static constexpr const char* kName = "FineEllipseLtc";
 };
 
-/// Each shape once: what lies between a cone and its samples does not depend on the shape.
-using FineRoundKinds = KindList<FineDiskKind, FineEllipsoidKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
+/// Flat and solid shapes in turn: what lies between a cone and its samples does not depend on the shape.
+using FineRoundKinds = KindList<FineDiskKind, FineEllipsoidKind, FineClippedSphereKind,
+                                FineClippedEllipseKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
 
 } // namespace hostile
 NUSSELT_NAMESPACE_END

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cones/direction_integral.h"
+#include "cones/lobe_image.h"
 #include "cones/round_cases.h"
 #include "hypothesis.h"
 #include "ltc/reference.h"
@@ -144,24 +145,6 @@ std::vector<typename Kind::template Light<float>> lights_for() {
 
 long double test_function(const Point& wi) { return (2 + wi.x + 0.5L * wi.y) * (1.5L + wi.z); }
 
-/// The image of a light in cosine space, as an ellipse or an ellipsoid.
-template <template <class> class Shape>
-auto image_of(const nusselt::hostile::RoundOnLobe<float, Shape>& light) {
-    const ReferenceLobe lobe(light.lobe);
-    const auto exact = exact_light(static_cast<const Shape<float>&>(light));
-    if constexpr (std::is_same_v<Shape<float>, nusselt::Sphere<float>> ||
-                  std::is_same_v<Shape<float>, nusselt::Ellipsoid<float>>) {
-        const auto ellipsoid = as_ellipsoid(exact);
-        return nusselt::Ellipsoid<long double>{
-            lobe.image(ellipsoid.center),
-            {lobe.image(ellipsoid.axis[0]), lobe.image(ellipsoid.axis[1]), lobe.image(ellipsoid.axis[2])}};
-    } else {
-        const auto ellipse = as_ellipse(exact);
-        return nusselt::Ellipse<long double>{lobe.image(ellipse.center), lobe.image(ellipse.u),
-                                             lobe.image(ellipse.v)};
-    }
-}
-
 /// The integral of the importance of a technique times a function over a light: of a lobe, or else of the cosine at the surface.
 template <class Kind>
 double integral_of(const typename Kind::template Light<float>& light) {
@@ -172,8 +155,9 @@ double integral_of(const typename Kind::template Light<float>& light) {
         const auto integrand = [&](const Point& o) {
             return std::max(o.z, 0.0L) / kPi * test_function(normalize(back.to_shading(o)));
         };
-        return static_cast<double>(DirectionRegion(image_of(light), DirectionRegion::Part::above_horizon)
-                                       .integral(integrand, kTolerance));
+        const auto image = image_of(exact_light(light), ReferenceLobe(light.lobe));
+        return static_cast<double>(
+            DirectionRegion(image, DirectionRegion::Part::above_horizon).integral(integrand, kTolerance));
     } else {
         const auto integrand = [&](const Point& wi) { return std::max(wi.z, 0.0L) * test_function(wi); };
         return static_cast<double>(DirectionRegion(exact_light(light), DirectionRegion::Part::above_horizon)
