@@ -2,6 +2,7 @@
 
 #include "scene/build/build_shape.h"
 #include "scene/build/lights/dark_portals.h"
+#include "scene/build/lights/surrounding_light.h"
 #include "scene/build/parallel.h"
 #include "scene/build/textures/surface_formula.h"
 #include "scene/build/textures/texture_bake.h"
@@ -240,6 +241,7 @@ Scene build_scene(SceneDescription description) {
     scene.files.insert(scene.files.end(), files.begin(), files.end());
     scene.radius = scene_radius(scene);
     warn_of_dark_portals(scene, environments, description.warnings);
+    warn_of_surrounding_lights(scene, description.warnings);
     scene.warnings = description.warnings.lines();
     return scene;
 }

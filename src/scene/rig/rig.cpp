@@ -2,6 +2,7 @@
 
 #include "scene/build/lights/dark_portals.h"
 #include "scene/build/lights/emission_warnings.h"
+#include "scene/build/lights/surrounding_light.h"
 #include "scene/colour/spectrum.h"
 #include "scene/input/message.h"
 #include "scene/model/polygon.h"
@@ -149,6 +150,7 @@ private:
     void change_emission(const RigLight& entry, EditableLight& light) const;
     void warn_of_dark_lights(Warnings& warnings) const;
     void warn_of_dark_portals(Warnings& warnings) const;
+    void warn_of_surrounding_lights(Warnings& warnings) const;
 
     Scene& scene_;
     LightEditor editor_;
@@ -412,12 +414,23 @@ void RigApplication::warn_of_dark_portals(Warnings& warnings) const {
     }
 }
 
+void RigApplication::warn_of_surrounding_lights(Warnings& warnings) const {
+    const std::vector<RoundLight>& lights = scene_.lights.of<RoundLight>();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const std::string& name = scene_.emitters[lights[i].emitter].name;
+        const auto change = changed_by_.find(name);
+        if (change == changed_by_.end()) continue;
+        if (const Darkness dark = darkness_inside(scene_, i)) warn(*change->second, name, *dark, warnings);
+    }
+}
+
 void RigApplication::finish() {
     Warnings warnings;
     // Those that emit nothing are no longer in the scene afterwards.
     warn_of_dark_lights(warnings);
     editor_.finish();
     warn_of_dark_portals(warnings);
+    warn_of_surrounding_lights(warnings);
     const std::vector<std::string> lines = warnings.lines();
     scene_.warnings.insert(scene_.warnings.end(), lines.begin(), lines.end());
 }

@@ -1,0 +1,20 @@
+#pragma once
+/// Spheres and ellipsoids around the camera that shine outwards: the camera sees their dark side only.
+
+#include "scene/build/lights/emission_warnings.h"
+#include "scene/input/diagnostics.h"
+#include "scene/model/scene.h"
+
+#include <cstddef>
+
+namespace nusselt::scene {
+
+/// Why the camera sees no light of a round light: it is inside, and the light shines outwards. Nothing for lights without a
+/// surface, or with one that is only partly there, since their light comes back from what is outside.
+/// \param index among the round lights of the scene
+Darkness darkness_inside(const Scene& scene, std::size_t index);
+
+/// Warns of each such light.
+void warn_of_surrounding_lights(const Scene& scene, Warnings& warnings);
+
+} // namespace nusselt::scene
