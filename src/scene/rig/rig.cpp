@@ -288,7 +288,11 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     // Most lights have nothing that could leave them dark, and there may be a million of them.
     changed_by_.erase(light.name);
     if (!changes.remove) {
-        if (darkness(scene_, light.parts) || !light.parts.of<EnvironmentLight>().empty())
+        const std::vector<RoundLight>& rounds = light.parts.of<RoundLight>();
+        const bool surrounds = std::any_of(rounds.begin(), rounds.end(), [&](const RoundLight& round) {
+            return surrounds_camera(scene_, round);
+        });
+        if (surrounds || darkness(scene_, light.parts) || !light.parts.of<EnvironmentLight>().empty())
             changed_by_[light.name] = &entry;
         return;
     }

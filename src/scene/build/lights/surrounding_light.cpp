@@ -6,11 +6,6 @@ namespace nusselt::scene {
 
 namespace {
 
-bool surrounds(const RoundLight& light, const Double3& point) {
-    const Double3 p = RoundAxes(light).unit(point - to_double(light.center));
-    return dot(p, p) < 1;
-}
-
 /// Where the ray through the middle of the film starts.
 Double3 eye(const Scene& scene) {
     const Camera& camera = scene.camera;
@@ -30,10 +25,15 @@ bool has_opaque_surface(const Scene& scene, std::size_t index) {
 
 } // namespace
 
+bool surrounds_camera(const Scene& scene, const RoundLight& light) {
+    if (light.model != RoundModel::ellipsoid || light.two_sided) return false;
+    const Double3 p = RoundAxes(light).unit(eye(scene) - to_double(light.center));
+    return dot(p, p) < 1;
+}
+
 Darkness darkness_inside(const Scene& scene, std::size_t index) {
-    const RoundLight& light = scene.lights.of<RoundLight>()[index];
-    if (light.model != RoundModel::ellipsoid || light.two_sided) return std::nullopt;
-    if (!surrounds(light, eye(scene)) || !has_opaque_surface(scene, index)) return std::nullopt;
+    if (!surrounds_camera(scene, scene.lights.of<RoundLight>()[index]) || !has_opaque_surface(scene, index))
+        return std::nullopt;
     return "the camera is inside and sees none of its light, because it shines outwards; ReverseOrientation "
            "in a pbrt scene "
            "or \"inwards\": true in a light rig turns it";
