@@ -16,6 +16,7 @@ const uint kBvhKindMask = 3u << 30;
 const uint kBvhInner = 0u;           ///< next node where the ray misses the box
 const uint kBvhTriangles = 1u << 30; ///< first triangle of a leaf
 const uint kBvhInstance = 2u << 30;  ///< an instance
+const uint kBvhRound = 3u << 30;     ///< a round light, by its index among them
 
 /// A box in the coordinates of the world or of an object. Where a ray hits it, and after leaves, the next node follows.
 struct BvhNode {

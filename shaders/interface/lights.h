@@ -49,15 +49,15 @@ const int kConstantCount = kFirstLightConstant + 19;
 
 // Bindings of set 0, after those of shaders/passes/scene.glsl.
 const int kFirstLightBinding = 7;
-const int kPolygonLightsBinding = kFirstLightBinding;
-const int kPolygonCornersBinding = kFirstLightBinding + 1; ///< of polygons and portals
-const int kLineLightsBinding = kFirstLightBinding + 2;
-const int kPointLightsBinding = kFirstLightBinding + 3;
-const int kDistantLightsBinding = kFirstLightBinding + 4;
-const int kPolygonTexturesBinding = kFirstLightBinding + 5;
-const int kEmissionWordsBinding = kFirstLightBinding + 6; ///< texels and prepared data of all emission that varies
-const int kEnvironmentLightsBinding = kFirstLightBinding + 7;
-const int kRoundLightsBinding = kFirstLightBinding + 8;
+const int kRoundLightsBinding = kFirstLightBinding; ///< first, because passes that see surfaces need no other lights
+const int kPolygonLightsBinding = kFirstLightBinding + 1;
+const int kPolygonCornersBinding = kFirstLightBinding + 2; ///< of polygons and portals
+const int kLineLightsBinding = kFirstLightBinding + 3;
+const int kPointLightsBinding = kFirstLightBinding + 4;
+const int kDistantLightsBinding = kFirstLightBinding + 5;
+const int kPolygonTexturesBinding = kFirstLightBinding + 6;
+const int kEmissionWordsBinding = kFirstLightBinding + 7; ///< texels and prepared data of all emission that varies
+const int kEnvironmentLightsBinding = kFirstLightBinding + 8;
 const int kFirstBindingAfterLights = kFirstLightBinding + 9;
 
 struct PolygonLightRecord {
@@ -148,14 +148,20 @@ const uint kDisk = 1;
 const uint kEllipse = 2;
 const uint kEllipsoid = 3;
 
-/// A scene::RoundForm.
+/// Stands for the triangle of lights that rays do not meet.
+const uint kNoTriangle = 0xffffffffu;
+
+/// Rasterisation draws boxes around round lights.
+const uint kRoundBoxTriangles = 12u;
+
+/// A scene::RoundForm, and how rays meet it: a visibility::RoundSurface.
 struct RoundLightRecord {
     uint shape;
     float center[3];
     float axis0[3];
     float axis1[3];
     float axis2[3];
-    float inverse0[3];
+    float inverse0[3]; ///< rows of the inverse of the matrix with the axes; of flat lights with the normal in place of axis2
     float inverse1[3];
     float inverse2[3];
     float normal[3];
@@ -163,7 +169,10 @@ struct RoundLightRecord {
     float radiance[3];
     uint emits_outwards;
     uint emits_inwards;
-    float shell;
+    uint triangle;    ///< one of its triangles, which has its material, or kNoTriangle
+    uint is_partial;  ///< alpha decides whether a ray meets it
+    float rounding;   ///< how far single precision moves points of the surface [m]
+    float shrinkage;  ///< of solid lights, the same as a share of the shape
 };
 
 /// The lights of one kind: consecutive numbers among all lights of the scene.

@@ -111,6 +111,8 @@ struct SceneRecord {
     uint instances;
     uint first_light_drawn;    ///< number of the first triangle of lights that are no surfaces, among all that are drawn
     uint first_light_triangle; ///< the same triangle among all records
+    /// Numbers from here on are round lights: two for each, since rays cross them at two places.
+    uint first_round_drawn;
     LightRange lights[kLightKinds]; ///< by kind
     // Of tables of lobes, which follow each other: f0, inclination, roughness.
     int frostbite_lobe_samples[3];

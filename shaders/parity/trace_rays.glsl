@@ -1,4 +1,10 @@
-/// Traces rays from a buffer. An entry point declares what its way to trace rays needs, then includes this file and the way.
+/// Traces rays from a buffer, past triangles and round lights. An entry point declares what its way to trace rays needs, then includes this file and the way.
+
+#include "interface/lights.h"
+
+/// As passes/rounds/round_records.glsl has it for scenes with such lights.
+#define ROUND_LIGHTS 1
+const bool kHasRounds = true;
 
 struct Ray {
     float origin[3];
@@ -16,6 +22,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Rays { Ray rays[]; };
 layout(set = 0, binding = 1, std430) writeonly buffer Results { uint results[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Alphas { Alpha alphas[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Rounds { RoundLightRecord round_lights[]; };
 layout(push_constant) uniform Push { uint ray_count; };
 
 bool occluded(vec3 origin, vec3 direction, float t_far);
@@ -27,6 +34,9 @@ float alpha_at(uint triangle, vec2 barycentrics, uint instance) {
     float u = a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
     return u < 0.5 ? 0.0 : alphas[triangle].factor;
 }
+
+/// Round lights have no alpha textures here.
+float alpha_on_round(uint triangle, vec2 uv) { return alphas[triangle].factor; }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -9,4 +9,7 @@ float alpha_at(uint triangle, vec2 barycentrics, uint instance) {
     return alpha_of(materials[triangles[triangle].material], interpolated_uv(triangle, barycentrics));
 }
 
+/// \param triangle one of a round light
+float alpha_on_round(uint triangle, vec2 uv) { return alpha_of(materials[triangles[triangle].material], uv); }
+
 #endif

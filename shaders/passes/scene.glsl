@@ -3,7 +3,9 @@
 /// The buffers of a scene that all passes read, and the triangles that are drawn.
 
 #include "interface/scene.h"
+#include "passes/rounds/round_records.glsl"
 #include "passes/scene_kinds.glsl"
+#include "passes/to_vec.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer Scene { SceneRecord scene; };
 layout(set = 0, binding = 1, std430) readonly buffer Vertices { VertexRecord vertices[]; };
@@ -14,20 +16,26 @@ layout(set = 0, binding = 5, std430) readonly buffer Textures { TextureRecord te
 layout(set = 0, binding = 6, std430) readonly buffer TextureWords { uint texture_words[]; };
 layout(push_constant, std430) uniform Frame_ { FrameRecord frame; };
 
-vec3 to_vec(const float v[3]) { return vec3(v[0], v[1], v[2]); }
-
-/// A drawn triangle.
+/// A drawn triangle, or a round light.
 struct DrawnTriangle {
-    uint triangle; ///< index into triangles[]
+    uint triangle; ///< index into triangles[]; one of those of the round light
     int instance;  ///< index into instances[], -1 for triangles of the world
     bool is_surface; ///< otherwise part of a light that is no surface
+    int round;     ///< index into round_lights[], -1 for triangles
+    int crossing;  ///< where the ray crosses the round light: 0 or 1
 };
 
 /// \param number among all triangles that are drawn
 DrawnTriangle drawn_triangle(uint number) {
+#if ROUND_LIGHTS
+    if (kHasRounds && number >= scene.first_round_drawn) {
+        uint crossing = number - scene.first_round_drawn;
+        return DrawnTriangle(round_lights[crossing / 2u].triangle, -1, true, int(crossing / 2u), int(crossing % 2u));
+    }
+#endif
     if (number >= scene.first_light_drawn)
-        return DrawnTriangle(scene.first_light_triangle + (number - scene.first_light_drawn), -1, false);
-    if (!kHasInstances || number < scene.world_triangles) return DrawnTriangle(number, -1, true);
+        return DrawnTriangle(scene.first_light_triangle + (number - scene.first_light_drawn), -1, false, -1, 0);
+    if (!kHasInstances || number < scene.world_triangles) return DrawnTriangle(number, -1, true, -1, 0);
     // The last instance that begins at this number or before.
     uint first = 0u;
     uint end = scene.instances;
@@ -38,7 +46,7 @@ DrawnTriangle drawn_triangle(uint number) {
         else
             end = middle;
     }
-    return DrawnTriangle(instances[first].first_triangle + (number - instances[first].first_drawn), int(first), true);
+    return DrawnTriangle(instances[first].first_triangle + (number - instances[first].first_drawn), int(first), true, -1, 0);
 }
 
 vec3 vertex_position(uint vertex) { return to_vec(vertices[vertex].position); }

@@ -4,11 +4,13 @@
 /// before (interface/bvh.h has the structs):
 ///
 ///     buffers with arrays `BvhNode bvh_nodes[]`, `BvhTriangle bvh_triangles[]`, `BvhInstance bvh_instances[]`;
-///     constants `bool kHasInstances` and `bool kHasPartial`: whether the scene has such surfaces;
+///     constants `bool kHasInstances`, `bool kHasPartial` and `bool kHasRounds`: whether the scene has such surfaces;
 ///     `float alpha_at(uint triangle, vec2 barycentrics, uint instance)`: alpha of Scene::triangles[triangle] at
-///     v0 + x (v1 - v0) + y (v2 - v0), as part of Scene::instances[instance] or with ~0u for those of the world.
+///     v0 + x (v1 - v0) + y (v2 - v0), as part of Scene::instances[instance] or with ~0u for those of the world;
+///     what rounds/round_shadows.glsl needs.
 
 #include "interface/bvh.h"
+#include "passes/rounds/round_shadows.glsl"
 #include "passes/shadow_ray.glsl"
 
 /// A ray in the coordinates of the world or of an object.
@@ -163,8 +165,14 @@ bool occluded(vec3 origin, vec3 direction, float t_far) {
         bool hits = false;
         do {
             leaf = next_leaf(local, node, end);
-            if ((leaf & kBvhKindMask) != kBvhTriangles) break;
-            hits = hits_leaf(ray, local, leaf & ~kBvhKindMask, space - 1u);
+            uint kind = leaf & kBvhKindMask;
+            uint index = leaf & ~kBvhKindMask;
+            if (kind == kBvhTriangles)
+                hits = hits_leaf(ray, local, index, space - 1u);
+            else if (kHasRounds && kind == kBvhRound)
+                hits = hits_round(ray, index);
+            else
+                break;
         } while (!hits);
         if (hits) return true;
         if (kHasInstances && leaf != kBvhInner) {

@@ -116,6 +116,19 @@ AccelerationStructure::Levels AccelerationStructure::build_bottom(const Device& 
     return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel, inputs);
 }
 
+std::optional<AccelerationStructure::Levels> AccelerationStructure::build_boxes(
+    const Device& device, std::span<const std::array<float, 6>> boxes) {
+    static_assert(sizeof(boxes[0]) == sizeof(vk::AabbPositionsKHR));
+    if (boxes.empty()) return {};
+    const Buffer buffer = make_input(device, boxes);
+    const vk::AccelerationStructureGeometryAabbsDataKHR data(vk::DeviceOrHostAddressConstKHR(buffer.address()),
+                                                             sizeof(boxes[0]));
+    return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel,
+                 {{{vk::AccelerationStructureGeometryKHR(vk::GeometryTypeKHR::eAabbs, data)},
+                   {static_cast<std::uint32_t>(boxes.size())},
+                   {0}}});
+}
+
 AccelerationStructure::Levels AccelerationStructure::build_top(const Device& device,
                                                                std::span<const RayTriangles> triangles,
                                                                std::span<const RayInstance> instances) const {
@@ -123,17 +136,21 @@ AccelerationStructure::Levels AccelerationStructure::build_top(const Device& dev
         throw Error(device.description().name + ": ray queries support fewer than 2^24 instances, found " +
                     std::to_string(instances.size()) + "; use --shadow-rays bvh");
     std::vector<vk::AccelerationStructureInstanceKHR> records;
+    const auto add = [&](const std::array<float, 12>& world_from_object, std::uint32_t index,
+                         const vk::raii::AccelerationStructureKHR& structure) {
+        vk::TransformMatrixKHR transform;
+        for (std::size_t k = 0; k < 12; ++k) transform.matrix[k / 4][k % 4] = world_from_object[k];
+        records.emplace_back(transform, index, 0xffu, 0u,
+                             vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable,
+                             device.handle().getAccelerationStructureAddressKHR({*structure}));
+    };
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         const RayInstance& instance = instances[i];
         const RayTriangles& content = triangles[instance.triangles];
         if (content.opaque.empty() && content.partial.empty()) continue;
-        vk::TransformMatrixKHR transform;
-        for (std::size_t k = 0; k < 12; ++k) transform.matrix[k / 4][k % 4] = instance.world_from_object[k];
-        const vk::DeviceAddress address =
-            device.handle().getAccelerationStructureAddressKHR({*bottom_.handles[instance.triangles]});
-        records.emplace_back(transform, i, 0xffu, 0u,
-                             vk::GeometryInstanceFlagBitsKHR::eTriangleFacingCullDisable, address);
+        add(instance.world_from_object, i, bottom_.handles[instance.triangles]);
     }
+    if (boxes_) add({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, boxes_->handles.front());
     const Buffer buffer = make_input(device, std::span<const vk::AccelerationStructureInstanceKHR>(records));
     const vk::AccelerationStructureGeometryInstancesDataKHR data(
         false, vk::DeviceOrHostAddressConstKHR(buffer.address()));
@@ -145,8 +162,11 @@ AccelerationStructure::Levels AccelerationStructure::build_top(const Device& dev
 
 AccelerationStructure::AccelerationStructure(const Device& device, std::span<const float> positions,
                                              std::span<const RayTriangles> triangles,
-                                             std::span<const RayInstance> instances) try
-    : bottom_(build_bottom(device, positions, triangles)), top_(build_top(device, triangles, instances)) {
+                                             std::span<const RayInstance> instances,
+                                             std::span<const std::array<float, 6>> boxes) try
+    : bottom_(build_bottom(device, positions, triangles)),
+      boxes_(build_boxes(device, boxes)),
+      top_(build_top(device, triangles, instances)) {
     assert(device.features().ray_queries);
 } catch (const vk::SystemError& error) {
     rethrow(device.description().name + ": building an acceleration structure", error);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,9 +30,12 @@ public:
     /// \param triangles what instances are made of, at least one.
     /// \param instances their index is what shaders read as their custom index: fewer than 2^24. Those without triangles
     ///        are left out.
+    /// \param boxes lower and upper corners: shaders decide whether rays meet what is in them. Their index is that of the primitive;
+    ///        they are no instance of the list.
     /// \throws Error if there are more instances, or the device has no memory for it.
     AccelerationStructure(const Device& device, std::span<const float> positions,
-                          std::span<const RayTriangles> triangles, std::span<const RayInstance> instances);
+                          std::span<const RayTriangles> triangles, std::span<const RayInstance> instances,
+                          std::span<const std::array<float, 6>> boxes);
 
     vk::AccelerationStructureKHR handle() const { return *top_.handles.front(); }
 
@@ -47,10 +51,13 @@ private:
                         const std::vector<Input>& inputs);
     static Levels build_bottom(const Device& device, std::span<const float> positions,
                                std::span<const RayTriangles> triangles);
+    static std::optional<Levels> build_boxes(const Device& device, std::span<const std::array<float, 6>> boxes);
     Levels build_top(const Device& device, std::span<const RayTriangles> triangles,
                      std::span<const RayInstance> instances) const;
 
-    Levels bottom_, top_;
+    Levels bottom_;
+    std::optional<Levels> boxes_;
+    Levels top_;
 };
 
 } // namespace nusselt::gpu

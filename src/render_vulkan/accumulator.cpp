@@ -32,8 +32,9 @@ PixelBuffers make_pixels(const DeviceScene& scene) {
 gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffers& pixels) {
     const SceneBuffers& data = scene.buffers();
     const SceneTextures& textures = scene.textures();
-    const std::array buffers = {&data.scene,     &data.vertices,      &data.triangles,  &data.instances,
-                                &data.materials, &textures.records(), &textures.words()};
+    static_assert(interface::kRoundLightsBinding == interface::kFirstLightBinding);
+    const std::array buffers = {&data.scene,     &data.vertices,      &data.triangles,    &data.instances,
+                                &data.materials, &textures.records(), &textures.words(), &data.lights.front()};
     const bool has_images = textures.images() != nullptr;
     gpu::RasterPass pass(scene.device(), shaders::kVisibilityVertex,
                          has_images ? std::span<const std::uint32_t>(shaders::kVisibilityFragmentImages)

@@ -184,7 +184,9 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
     add_vertices(scene, lights, records);
     add_triangles(scene, lights, records);
     const std::uint64_t first_light = add_instances(scene, records);
-    const std::uint64_t drawn = first_light + lights.triangles.size();
+    const std::uint64_t first_round = first_light + lights.triangles.size();
+    const std::uint64_t drawn =
+        first_round + interface::kRoundBoxTriangles * scene.lights.of<scene::RoundLight>().size();
     records.drawn_triangles = checked_count(3 * drawn, "corners of triangles") / 3;
     for (const scene::Material& material : scene.materials) {
         records.materials.push_back(make_record(material));
@@ -204,6 +206,7 @@ SceneRecords make_scene_records(const scene::Scene& scene) {
     record.instances = static_cast<std::uint32_t>(scene.instances.size());
     record.first_light_drawn = static_cast<std::uint32_t>(first_light);
     record.first_light_triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    record.first_round_drawn = static_cast<std::uint32_t>(first_round);
     std::copy(records.lights.ranges.begin(), records.lights.ranges.end(), record.lights);
     return records;
 }

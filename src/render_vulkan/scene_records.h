@@ -31,7 +31,7 @@ struct SceneRecords {
     std::vector<interface::InstanceRecord> instances;
     std::vector<interface::MaterialRecord> materials;
     LightRecords lights;
-    std::uint32_t drawn_triangles = 0;
+    std::uint32_t drawn_triangles = 0; ///< with those of boxes around round lights
     SceneKinds kinds;
 };
 

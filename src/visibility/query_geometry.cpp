@@ -1,7 +1,9 @@
 #include "visibility/query_geometry.h"
 
+#include "scene/model/lights/round/round_axes.h"
 #include "visibility/alpha.h"
 #include "visibility/embree_builder.h"
+#include "visibility/round_surfaces.h"
 
 #include <algorithm>
 #include <iterator>
@@ -28,7 +30,9 @@ QueryGeometry make_query_geometry(const scene::Scene& scene) {
         for (std::size_t i = first; i < first + count; ++i) {
             const scene::Triangle& triangle = scene.triangles[i];
             const Presence presence = presence_of(scene.materials[scene.triangle_material[i]]);
-            if (presence == Presence::none || !has_usable_corners(scene, triangle)) continue;
+            if (presence == Presence::none || round_light_of(scene, i) >= 0 ||
+                !has_usable_corners(scene, triangle))
+                continue;
             auto& vertices = presence == Presence::full ? part.opaque : part.partial;
             vertices.insert(vertices.end(), std::begin(triangle.vertex), std::end(triangle.vertex));
             if (presence == Presence::partial)
@@ -42,6 +46,12 @@ QueryGeometry make_query_geometry(const scene::Scene& scene) {
     };
     add_instance(0);
     for (const scene::Instance& instance : scene.instances) add_instance(instance.object + 1);
+    geometry.round_boxes.resize(scene.lights.of<scene::RoundLight>().size());
+    for (const RoundSurface& surface : make_round_surfaces(scene)) {
+        auto& box = geometry.round_boxes[static_cast<std::size_t>(round_light_of(scene, surface.triangle))];
+        std::copy(surface.lower.begin(), surface.lower.end(), box.begin());
+        std::copy(surface.upper.begin(), surface.upper.end(), box.begin() + 3);
+    }
     return geometry;
 }
 

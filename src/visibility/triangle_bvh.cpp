@@ -1,7 +1,9 @@
 #include "visibility/triangle_bvh.h"
 
+#include "scene/model/lights/round/round_axes.h"
 #include "visibility/alpha.h"
 #include "visibility/embree_builder.h"
+#include "visibility/round_surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -64,6 +66,7 @@ public:
 private:
     /// \returns its bounds, empty ones if nothing is left
     Box add_triangles(std::uint32_t first, std::uint32_t count);
+    void add_rounds();
     void add_instances(const std::vector<Box>& objects);
     /// \param leaf function from a BuiltLeaf to a link
     /// \returns the bounds
@@ -101,6 +104,7 @@ TriangleBvh Builder::build() {
     }
     const std::uint32_t first_node = node_count();
     add_triangles(0, static_cast<std::uint32_t>(world_triangle_count(scene_)));
+    add_rounds();
     add_instances(bounds);
     bvh_.instances[0] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, first_node, node_count()};
     return std::move(bvh_);
@@ -109,7 +113,9 @@ TriangleBvh Builder::build() {
 Box Builder::add_triangles(std::uint32_t first, std::uint32_t count) {
     std::vector<RTCBuildPrimitive> primitives;
     for (std::uint32_t triangle = first; triangle < first + count; ++triangle) {
-        if (presence_of(scene_.materials[scene_.triangle_material[triangle]]) == Presence::none) continue;
+        if (presence_of(scene_.materials[scene_.triangle_material[triangle]]) == Presence::none ||
+            round_light_of(scene_, triangle) >= 0)
+            continue;
         const Corners corners = corners_of(scene_, triangle);
         if (!std::all_of(corners.begin(), corners.end(), is_usable)) continue;
         Box box;
@@ -117,6 +123,15 @@ Box Builder::add_triangles(std::uint32_t first, std::uint32_t count) {
         primitives.push_back(make_primitive(grown(box), triangle));
     }
     return add_tree(std::move(primitives), kShape, [&](const BuiltLeaf& leaf) { return add_leaf(leaf); });
+}
+
+void Builder::add_rounds() {
+    std::vector<RTCBuildPrimitive> primitives;
+    for (const RoundSurface& surface : make_round_surfaces(scene_))
+        primitives.push_back(make_primitive(grown({surface.lower, surface.upper}),
+                                            static_cast<std::uint32_t>(round_light_of(scene_, surface.triangle))));
+    add_tree(std::move(primitives), {.width = kShape.width},
+             [](const BuiltLeaf& leaf) { return interface::kBvhRound | leaf.primitive[0]; });
 }
 
 void Builder::add_instances(const std::vector<Box>& objects) {

@@ -1,5 +1,6 @@
 #include "gpu_tracer.h"
 
+#include "render_vulkan/lights/light_records.h"
 #include "shaders/trace_rays_bvh.h"
 #include "shaders/trace_rays_query.h"
 #include "visibility/embree_scene.h"
@@ -17,9 +18,9 @@ constexpr std::uint32_t kWorkGroup = 64; // as in shaders/parity/trace_rays.glsl
 static_assert(sizeof(Ray) == 7 * sizeof(float));
 
 gpu::ComputeInterface interface_of(Way way) {
-    const std::uint32_t buffers = way == Way::bvh ? 6 : 5;
+    const std::uint32_t buffers = way == Way::bvh ? 7 : 6;
     return {
-        .storage_buffers = buffers, .ray_scenes = 6 - buffers, .push_constant_size = sizeof(std::uint32_t)};
+        .storage_buffers = buffers, .ray_scenes = 7 - buffers, .push_constant_size = sizeof(std::uint32_t)};
 }
 
 std::span<const std::uint32_t> shader_of(Way way) {
@@ -70,8 +71,8 @@ GpuTracer::GpuTracer(const gpu::Device& device, const scene::Scene& scene, Way w
 }
 
 void GpuTracer::bind(const scene::Scene& scene, const visibility::TriangleBvh& bvh) {
-    pipeline_.bind(
-        {&rays_, &results_, add(alphas_of(scene)), add(bvh.nodes), add(bvh.triangles), add(bvh.instances)});
+    pipeline_.bind({&rays_, &results_, add(alphas_of(scene)), add(render_vulkan::make_round_records(scene)),
+                    add(bvh.nodes), add(bvh.triangles), add(bvh.instances)});
 }
 
 void GpuTracer::bind_query(const scene::Scene& scene) {
@@ -84,9 +85,10 @@ void GpuTracer::bind_query(const scene::Scene& scene) {
                                                                 : scene.instances[i - 1].world_from_object});
     const auto* positions = scene.positions.empty() ? nullptr : &scene.positions[0].x;
     structure_ = std::make_unique<gpu::AccelerationStructure>(
-        *device_, std::span(positions, 3 * scene.positions.size()), triangles, instances);
-    pipeline_.bind(
-        {&rays_, &results_, add(alphas_of(scene)), add(geometry.instances), add(geometry.partial_triangles)});
+        *device_, std::span(positions, 3 * scene.positions.size()), triangles, instances,
+        geometry.round_boxes);
+    pipeline_.bind({&rays_, &results_, add(alphas_of(scene)), add(render_vulkan::make_round_records(scene)),
+                    add(geometry.instances), add(geometry.partial_triangles)});
     pipeline_.bind(*structure_);
 }
 

@@ -3,20 +3,13 @@
 /// Spheres, disks, ellipses and ellipsoids as a shading point and a camera see them, as in
 /// src/render_cpu/kernel/lights/round_light.h.
 
-#ifndef ROUND_LIGHTS
-#error ROUND_LIGHTS must be 1 for scenes with spheres, disks, ellipses or ellipsoids that emit, else 0: those shaders are larger
-#endif
+#include "passes/scene.glsl"
 
 #if ROUND_LIGHTS
 #include "nusselt/cones/circular_cones.glsl"
 #include "nusselt/cones/round_lights.glsl"
 #include "passes/lights/light_role.glsl"
-
-layout(constant_id = kEllipsesConstant) const bool kHasEllipses = true;
-layout(constant_id = kEllipsoidsConstant) const bool kHasEllipsoids = true;
-const bool kHasRounds = kHasEllipses || kHasEllipsoids;
-
-layout(set = 0, binding = kRoundLightsBinding, std430) readonly buffer RoundLights { RoundLightRecord round_lights[]; };
+#include "passes/rounds/round_surface.glsl"
 
 /// All shapes share the techniques, which know cones only: drivers would compile them once for each.
 struct RoundShape {
@@ -82,27 +75,27 @@ RoundLightView view_of(RoundShape shape, const Ltc lobe) {
     return view;
 }
 
-bool is_flat(const RoundLightRecord record) { return record.shape == kDisk || record.shape == kEllipse; }
-
 /// A light in shading space. The axes of spheres and disks are those of the techniques of C++ for these shapes.
-RoundShape local_shape(const RoundLightRecord record, const Surface surface) {
+RoundShape local_shape(uint light, const Surface surface) {
     Ellipsoid axes = to_shading_space(
-        Ellipsoid(to_vec(record.center), to_vec(record.axis0), to_vec(record.axis1), to_vec(record.axis2)),
+        Ellipsoid(to_vec(round_lights[light].center), to_vec(round_lights[light].axis0), to_vec(round_lights[light].axis1),
+                  to_vec(round_lights[light].axis2)),
         surface.position, surface.shading);
+    uint kind = round_lights[light].shape;
     RoundShape shape;
-    shape.is_flat = is_flat(record);
-    shape.is_circular = record.shape == kSphere || record.shape == kDisk;
+    shape.is_flat = is_flat(light);
+    shape.is_circular = kind == kSphere || kind == kDisk;
     shape.center = axes.center;
-    shape.normal = frame_to_local(surface.shading, to_vec(record.normal));
-    shape.radius = record.radius;
-    if (record.shape == kSphere) axes = sphere_light(axes.center, record.radius);
+    shape.normal = frame_to_local(surface.shading, to_vec(round_lights[light].normal));
+    shape.radius = round_lights[light].radius;
+    if (kind == kSphere) axes = sphere_light(axes.center, shape.radius);
     shape.axis0 = axes.axis0;
     shape.axis1 = axes.axis1;
     shape.axis2 = axes.axis2;
-    if (kHasEllipses && record.shape == kDisk) {
+    if (kHasEllipses && kind == kDisk) {
         DiskDirections disk = disk_directions(shape.center, shape.normal);
-        shape.axis0 = record.radius * disk.along;
-        shape.axis1 = record.radius * disk.across;
+        shape.axis0 = shape.radius * disk.along;
+        shape.axis1 = shape.radius * disk.across;
     }
     return shape;
 }
@@ -116,66 +109,60 @@ float highest_point(const RoundShape shape) {
     return shape.center.z + sqrt(dot(heights, heights));
 }
 
-/// A vector in the space of the unit sphere of a solid light.
-vec3 in_unit_sphere(const RoundLightRecord record, vec3 v) {
-    return vec3(dot(to_vec(record.inverse0), v), dot(to_vec(record.inverse1), v), dot(to_vec(record.inverse2), v));
-}
-
 /// Whether a point is on a side of a flat light that emits. The light does not light itself.
-bool faces_flat_light(const RoundLightRecord record, bool on_light, const RoundShape shape) {
-    if (record.emits_inwards != 0u) return !on_light;
+bool faces_flat_light(bool emits_inwards, bool on_light, const RoundShape shape) {
+    if (emits_inwards) return !on_light;
     // Comparisons with NaN are false: negated they keep it, so that it is counted.
     return !on_light && !(dot(shape.normal, shape.center) >= 0.0);
 }
 
 /// The same for a solid light. Finds whether it surrounds the point.
-bool faces_solid_light(const RoundLightRecord record, const Surface surface, bool on_light, inout LocalRound light) {
-    vec3 unit = in_unit_sphere(record, surface.position - to_vec(record.center));
-    // Rounding puts corners of triangles to either side of the light: their front decides.
-    bool faces_inwards = dot(in_unit_sphere(record, surface.geometric_normal), unit) < 0.0;
+bool faces_solid_light(const Surface surface, bool on_light, inout LocalRound light) {
+    vec3 unit = in_unit_sphere(light.index, surface.position - to_vec(round_lights[light.index].center));
+    // Rounding puts points on the light to either side of it: the normal towards the eye decides.
+    bool faces_inwards = dot(in_unit_sphere(light.index, surface.geometric_normal), unit) < 0.0;
     light.inside = on_light ? faces_inwards : dot(unit, unit) < 1.0;
     bool outside = !on_light && !light.inside;
-    if (record.emits_inwards == 0u) return outside;
-    // A little larger, so that those corners are inside.
+    if (round_lights[light.index].emits_inwards == 0u) return outside;
+    // A little larger, so that those points are inside.
     float scale = light.inside ? 1.001 : 1.0;
     light.shape.axis0 *= scale;
     light.shape.axis1 *= scale;
     light.shape.axis2 *= scale;
     light.shape.radius *= scale;
-    return light.inside || (outside && record.emits_outwards != 0u);
+    return light.inside || (outside && round_lights[light.index].emits_outwards != 0u);
 }
 
 /// \param index among the round lights
 LocalRound local_round(const Surface surface, uint index) {
-    RoundLightRecord record = round_lights[index];
     LocalRound light;
-    light.shape = local_shape(record, surface);
+    light.shape = local_shape(index, surface);
     light.index = index;
     light.inside = false;
     light.position = surface.position;
     light.shading = surface.shading;
     uint number = light_number(kRoundKind, index);
     bool on_light = surface.light == int(number);
-    bool is_lit = light.shape.is_flat ? faces_flat_light(record, on_light, light.shape)
-                                      : faces_solid_light(record, surface, on_light, light);
+    bool emits_inwards = round_lights[index].emits_inwards != 0u;
+    bool is_lit = light.shape.is_flat ? faces_flat_light(emits_inwards, on_light, light.shape)
+                                      : faces_solid_light(surface, on_light, light);
     is_lit = is_lit && !(highest_point(light.shape) <= 0.0);
-    light.role = LightRole(is_lit, to_vec(record.radiance), number);
+    light.role = LightRole(is_lit, to_vec(round_lights[index].radiance), number);
     return light;
 }
 
 /// Whether a ray sees the inner side, or that to which the normal does not point.
-bool sees_inner_side(const RoundLightRecord record, const Ray ray) {
-    if (is_flat(record)) return !(dot(to_vec(record.normal), ray.direction) < 0.0);
-    vec3 unit = in_unit_sphere(record, ray.origin - to_vec(record.center));
+bool sees_inner_side(uint light, const Ray ray) {
+    if (is_flat(light)) return !(dot(to_vec(round_lights[light].normal), ray.direction) < 0.0);
+    vec3 unit = in_unit_sphere(light, ray.origin - to_vec(round_lights[light].center));
     return dot(unit, unit) < 1.0;
 }
 
 /// The radiance along a ray that meets the light.
 vec3 round_emission(uint index, const Ray ray) {
     if (!kHasRounds) return vec3(0.0); // drivers then drop the rest
-    RoundLightRecord record = round_lights[index];
-    uint emits = sees_inner_side(record, ray) ? record.emits_inwards : record.emits_outwards;
-    return emits != 0u ? to_vec(record.radiance) : vec3(0.0);
+    uint emits = sees_inner_side(index, ray) ? round_lights[index].emits_inwards : round_lights[index].emits_outwards;
+    return emits != 0u ? to_vec(round_lights[index].radiance) : vec3(0.0);
 }
 #else
 vec3 round_emission(uint index, const Ray ray) { return vec3(0.0); }

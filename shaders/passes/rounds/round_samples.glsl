@@ -63,18 +63,17 @@ vec2 techniques_integrals(const RoundTechniques self) {
     return vec2((1.0 / kNusseltPi) * cone_projected_solid_angle_measure(self.projected), cone_ltc_measure(self.ltc));
 }
 
-/// Moves a sample of a light that surrounds the point: its triangles in the scene come a little before the light. Shadow rays
-/// have to end before these: where they leave the shell.
+/// From inside, where all directions lead to the light, it is a little too large: see faces_solid_light(). Shadow rays end where
+/// it really is.
 void modulate(const LocalRound light, inout DirectLightSample s) {
     if (!kHasEllipsoids || !light.inside) return;
-    RoundLightRecord record = round_lights[light.index];
-    vec3 origin = in_unit_sphere(record, light.position - to_vec(record.center));
-    vec3 direction = in_unit_sphere(record, frame_to_world(light.shading, s.wi));
+    vec3 origin = in_unit_sphere(light.index, light.position - to_vec(round_lights[light.index].center));
+    vec3 direction = in_unit_sphere(light.index, frame_to_world(light.shading, s.wi));
     float a = dot(direction, direction);
     float along = dot(origin, direction);
     float distance = nusselt_length(origin);
-    float root = along * along - a * ((distance - record.shell) * (distance + record.shell));
-    // Rays between triangles and shell are short.
+    float root = along * along - a * ((distance - 1.0) * (distance + 1.0));
+    // No shorter, because a ray needs a direction.
     const float shortest = 1e-3;
     float way = nusselt_max(sqrt(nusselt_max(root, 0.0)) - along, shortest * sqrt(a));
     s.p = (way / a) * s.wi;

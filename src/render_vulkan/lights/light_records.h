@@ -57,6 +57,9 @@ int constant_of(const scene::RoundLight& light);
 /// The reason for which shaders cannot have all of the lights; nothing if they can.
 std::optional<std::string> why_unsupported(const scene::Lights& lights);
 
+/// The round lights of a scene as rays meet them and as shading points see them, in their order.
+std::vector<interface::RoundLightRecord> make_round_records(const scene::Scene& scene);
+
 /// \throws std::runtime_error if the scene has more lights than 32-bit numbers reach, or lights that shaders cannot have
 LightRecords make_light_records(const scene::Scene& scene);
 

@@ -3,7 +3,7 @@
 #include "render_vulkan/lights/light_records.h"
 #include "render_vulkan/record_values.h"
 #include "scene/model/lights/round/round_form.h"
-#include "scene/model/lights/round/round_shell.h"
+#include "visibility/round_surfaces.h"
 
 namespace nusselt::render_vulkan {
 
@@ -26,14 +26,8 @@ int constant_of(const scene::RoundLight& light) {
                                                      : interface::kEllipsoidsConstant;
 }
 
-void write_rounds(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
-    const auto& rounds = dynamic_cast<const scene::LightsOf<scene::RoundLight>&>(list);
-    for (const scene::RoundLight& light : rounds.lights) records.has_shape_of(constant_of(light)) = true;
+std::vector<interface::RoundLightRecord> make_round_records(const scene::Scene& scene) {
     std::vector<interface::RoundLightRecord> lights;
-    // Here, rays meet flat pieces. The margin is for rounding, and because shadow rays have to end before them.
-    constexpr double kMargin = 1e-4;
-    const std::vector<double> shells = scene::round_shells(scene);
-    auto shell = shells.begin();
     for (const scene::RoundForm& form : round_forms(scene)) {
         interface::RoundLightRecord& record = lights.emplace_back();
         record.shape = static_cast<std::uint32_t>(form.shape);
@@ -49,9 +43,25 @@ void write_rounds(const scene::Scene& scene, const scene::LightList& list, Light
         copy(form.radiance, record.radiance);
         record.emits_outwards = static_cast<std::uint32_t>(form.emits_outwards);
         record.emits_inwards = static_cast<std::uint32_t>(form.emits_inwards);
-        record.shell = static_cast<float>((1 - kMargin) * *shell++);
+        record.triangle = interface::kNoTriangle;
     }
-    records.array_at(interface::kRoundLightsBinding) = make_light_array("spheres and disks", lights);
+    for (const visibility::RoundSurface& surface : visibility::make_round_surfaces(scene)) {
+        interface::RoundLightRecord& record = lights.at(surface.light - scene.lights.of<scene::PolygonLight>().size());
+        float* const rows[] = {record.inverse0, record.inverse1, record.inverse2};
+        for (std::size_t i = 0; i < surface.inverse.size(); ++i)
+            rows[i / 3][i % 3] = static_cast<float>(surface.inverse[i]);
+        record.triangle = surface.triangle;
+        record.is_partial = surface.is_partial ? 1 : 0;
+        record.rounding = static_cast<float>(surface.rounding);
+        record.shrinkage = static_cast<float>(surface.shrinkage);
+    }
+    return lights;
+}
+
+void write_rounds(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
+    const auto& rounds = dynamic_cast<const scene::LightsOf<scene::RoundLight>&>(list);
+    for (const scene::RoundLight& light : rounds.lights) records.has_shape_of(constant_of(light)) = true;
+    records.array_at(interface::kRoundLightsBinding) = make_light_array("spheres and disks", make_round_records(scene));
 }
 
 } // namespace nusselt::render_vulkan

@@ -20,7 +20,7 @@ gpu::AccelerationStructure make_structure(const gpu::Device& device, const scene
                                                                 : scene.instances[i - 1].world_from_object});
     const std::span positions(reinterpret_cast<const float*>(scene.positions.data()),
                               3 * scene.positions.size());
-    return {device, positions, triangles, instances};
+    return {device, positions, triangles, instances, geometry.round_boxes};
 }
 
 } // namespace
