@@ -1,7 +1,6 @@
 /// Shadow rays in shaders: against Embree, against all triangles in double precision, and through the seams of meshes.
 
-#include "gpu_test.h"
-#include "gpu_tracer.h"
+#include "gpu_shadows.h"
 #include "meshes.h"
 
 #include <algorithm>
@@ -17,24 +16,6 @@ using visibility_test::make_empty_scene;
 
 /// Rounding of rays in single precision, as a share of the coordinates. What is farther from any edge must be right.
 constexpr double kMargin = 2e-6;
-
-class GpuShadows : public parity::GpuTest, public testing::WithParamInterface<Way> {
-protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        if (IsSkipped() || HasFatalFailure() || GetParam() == Way::bvh) return;
-        if (device().features().ray_queries) return;
-        const std::string& driver = device().description().driver;
-        EXPECT_EQ(driver.find("Mesa 25"), std::string::npos) << driver << " has ray queries";
-        GTEST_SKIP() << driver << " does not support ray queries";
-    }
-
-    std::vector<std::uint32_t> trace(const scene::Scene& scene, const std::vector<Ray>& rays) const {
-        return GpuTracer(device(), scene, GetParam()).trace(rays);
-    }
-
-    std::mt19937 random_{7};
-};
 
 INSTANTIATE_TEST_SUITE_P(Ways, GpuShadows, testing::Values(Way::bvh, Way::query),
                          [](const auto& of) { return of.param == Way::bvh ? "bvh" : "query"; });
