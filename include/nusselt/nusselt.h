@@ -35,6 +35,7 @@
 #include <nusselt/random/light_random.h>
 
 // All techniques, by scripts/check-techniques.py.
+#include <nusselt/cones/cone_clipped_ltc.h>
 #include <nusselt/cones/cone_clipped_solid_angle.h>
 #include <nusselt/cones/cone_ltc.h>
 #include <nusselt/cones/cone_projected_solid_angle.h>

@@ -95,7 +95,7 @@ private:
     mask_t<Real> is_clipped_;               ///< whether the surface's horizon cuts the light
     CosineCone<Real, Steps, Places> image_; ///< only where it does not, in any lane
     LuneSweep<Real, Places> lune_;          ///< only where it does, in any lane
-    Real measure_;                          ///< projected solid angle of the part of the image that counts [sr]
+    Real measure_; ///< projected solid angle of the part of the image that counts [sr]
 
     friend struct detail::Members;
     template <class Self, class Visit>

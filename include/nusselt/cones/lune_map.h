@@ -20,16 +20,16 @@ public:
     /// A half-plane and what it has of the cone: the way from the near end, on the rim or at the pole, to the far end on the rim.
     struct Turn {
         Real z;
-        Vec2<Real> far_end, near_end;     ///< in the disk of the cone
-        Real far_length, near_length;     ///< of their directions, which are not of unit length
-        Vec2<Real> away;                  ///< the direction of the half-plane along h and the normal, of unit length
-        Real gamma;                       ///< angle of the far end from the pole
-        Real near_gamma;                  ///< that of the near end
+        Vec2<Real> far_end, near_end; ///< in the disk of the cone
+        Real far_length, near_length; ///< of their directions, which are not of unit length
+        Vec2<Real> away; ///< the direction of the half-plane along h and the normal, of unit length
+        Real gamma;      ///< angle of the far end from the pole
+        Real near_gamma; ///< that of the near end
         Real angle, half_sine, half_cosine; ///< between both ends, and functions of its half
-        Real clearance;                   ///< height of the far end above the first horizon
-        Real across;                      ///< distance of the far end from the axis of the pole
-        Real volume;                      ///< of pole, far end and its derivative
-        Real jacobian;                    ///< angle in the disk per angle of the map
+        Real clearance;                     ///< height of the far end above the first horizon
+        Real across;                        ///< distance of the far end from the axis of the pole
+        Real volume;                        ///< of pole, far end and its derivative
+        Real jacobian;                      ///< angle in the disk per angle of the map
     };
 
     LuneMap() = default;
@@ -83,7 +83,8 @@ public:
         const Chord first_cut = chord_of(basis_n_, basis_h_), second_cut = chord_of(second, out);
         const auto has_second = lateral > Real(4 * std::numeric_limits<Scalar>::epsilon());
         is_clipped_ = wide & has_second & second_cut.is_met;
-        const auto above_both = (!first_cut.is_cut) & (basis_n_.z > Real(0)) & (!second_cut.is_cut) & (second.z > Real(0));
+        const auto above_both =
+            (!first_cut.is_cut) & (basis_n_.z > Real(0)) & (!second_cut.is_cut) & (second.z > Real(0));
         const auto above_first = first_cut.is_met | above_both;
         is_lit_ = is_clipped_ | (has_second & above_first) | ((!has_second) & (normal.z > Real(0)));
 
@@ -96,24 +97,27 @@ public:
         const Real length = length_of(farthest_);
         const Real along = along_of(farthest_) / length, beside = across_of(farthest_) / length;
         const auto behind = along < Real(0);
-        const Real versine = select(behind, beside * beside, Real(1) + along) / select(behind, Real(1) - along, Real(1));
+        const Real versine =
+            select(behind, beside * beside, Real(1) + along) / select(behind, Real(1) - along, Real(1));
         stretch_ = Real(1) / sqrt(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
 
         // The rim from the first horizon, or where the first half-plane touches it, to the second horizon.
         starts_at_horizon_ = first_cut.is_met;
-        const Real tangent_sine = sqrt(max((Real(1) - tangent_cosine_) * (Real(1) + tangent_cosine_), Real(0)));
+        const Real tangent_sine =
+            sqrt(max((Real(1) - tangent_cosine_) * (Real(1) + tangent_cosine_), Real(0)));
         const Vec2<Real> touching = from_farthest({-tangent_cosine_, -turn_sign_ * tangent_sine});
         start_ = select(starts_at_horizon_, first_cut.end, touching);
         level_cosine_ = select(starts_at_horizon_, -first_cut.height, -tangent_cosine_);
         level_sine_ = select(starts_at_horizon_, first_cut.half, tangent_sine);
         horizon_ = first_cut.steepness;
-        begin_ = angle_at(start_);
-        const auto half = sincos_half_turn(Real(0.5) * abs(begin_));
-        start_sine_ = copysign(half.sin, begin_);
-        start_cosine_ = half.cos;
+        const SinCos<Real> half = half_angle_at(start_);
+        begin_ = angle_of(half);
+        const Real inverse_half = Real(1) / detail::hypotenuse(half.sin, half.cos);
+        start_sine_ = inverse_half * half.sin;
+        start_cosine_ = inverse_half * half.cos;
         start_scale_ = detail::hypotenuse(stretch_ * start_cosine_, start_sine_);
         start_squeezed_ = squeezed_length(start_);
-        const Real range = turn_sign_ * (angle_at(second_cut.end) - begin_);
+        const Real range = turn_sign_ * (angle_of(half_angle_at(second_cut.end)) - begin_);
         const auto wraps = is_inside_ & (range < Real(0));
         half_range_ = Real(0.5) * max(select(wraps, range + Real(2 * kPi<Scalar>), range), Real(0));
     }
@@ -159,8 +163,7 @@ public:
         // The angle in the disk from the start, accurate relative to itself.
         const Real per_scale = sqrt(inverse) / start_scale_;
         const Real half_sine = stretch_ * way.sin * per_scale;
-        const Real half_cosine =
-            (x * (stretch_ * start_cosine_) + s * start_sine_) * per_scale;
+        const Real half_cosine = (x * (stretch_ * start_cosine_) + s * start_sine_) * per_scale;
         const Real from_sine =
             squeeze_ * Real(2) * half_sine * half_cosine * inverse_length / start_squeezed_;
         const Real from_cosine = dot(rim, start_);
@@ -173,9 +176,11 @@ public:
 
         // Heights above the horizon and above the tangent from the pole: one of them vanishes at the start.
         const Real far_cosine = dot(rim, farthest_);
-        const Real height = multiply_add(a_ * basis_n_.x, rim.x, multiply_add(b_ * basis_n_.y, rim.y, c_ * basis_n_.z));
+        const Real height =
+            multiply_add(a_ * basis_n_.x, rim.x, multiply_add(b_ * basis_n_.y, rim.y, c_ * basis_n_.z));
         turn.clearance = max(select(starts_at_horizon_, horizon_ * gain, height), Real(0));
-        const Real volume = select(starts_at_horizon_ | is_inside_, multiply_add(away_, far_cosine, level_), away_ * gain);
+        const Real volume =
+            select(starts_at_horizon_ | is_inside_, multiply_add(away_, far_cosine, level_), away_ * gain);
         turn.volume = max(volume, Real(0));
         finish(turn, far_cosine);
         return turn;
@@ -193,7 +198,8 @@ public:
                                          const Real& half_cosine) noexcept {
         const Real inverse = detail::over_positive(Real(1), turn.across);
         const Real share = angle * inverse;
-        const Real cube = cycloid_fraction(Real(0.5) * angle, half_sine, half_cosine) * (share * share * share);
+        const Real cube =
+            cycloid_fraction(Real(0.5) * angle, half_sine, half_cosine) * (share * share * share);
         const Real lever = sincos_half_turn(turn.near_gamma + Real(0.5) * angle).sin * inverse;
         return multiply_add(Real(Scalar(1) / 12), cube,
                             Real(2) * half_sine * half_cosine * inverse * (lever * lever));
@@ -207,7 +213,7 @@ public:
         const Real x = select(norm > Real(0), aside * inverse, Real(1)), y = up * inverse;
         const Vec3<Real> normal = x * basis_n_ - y * basis_h_;
         const Chord chord = chord_of(normal, x * basis_h_ + y * basis_n_);
-        Real t = turn_sign_ * (angle_at(chord.end) - begin_);
+        Real t = turn_sign_ * (angle_of(half_angle_at(chord.end)) - begin_);
         const Real full = Real(2) * half_range_;
         const Real wrapped = t + Real(2 * kPi<Scalar>);
         const auto wraps = is_inside_ & (t < Real(0)) & (wrapped - full < -t);
@@ -240,7 +246,8 @@ private:
         chord.is_cut = abs(nc) < k;
         chord.steepness = select(chord.is_cut, k, Real(1));
         const Real inverse = Real(1) / chord.steepness;
-        const Vec2<Real> up{select(chord.is_cut, na * inverse, Real(1)), select(chord.is_cut, nb * inverse, Real(0))};
+        const Vec2<Real> up{select(chord.is_cut, na * inverse, Real(1)),
+                            select(chord.is_cut, nb * inverse, Real(0))};
         chord.height = min(max(nc * inverse, Real(-1)), Real(1));
         const auto gaps = detail::horizon_gaps({a_, b_, c_}, normal, chord.steepness);
         chord.half = sqrt(max(gaps.smaller * gaps.larger, Real(0)));
@@ -284,18 +291,18 @@ private:
         return squeeze_ / detail::hypotenuse(rim.x, squeeze_ * rim.y);
     }
 
-    /// The angle of the map of a point of the rim.
-    NUSSELT_HD Real angle_at(const Vec2<Real>& rim) const noexcept {
+    /// Half of the angle of the map of a point of the rim: a vector of any length.
+    NUSSELT_HD SinCos<Real> half_angle_at(const Vec2<Real>& rim) const noexcept {
         const Vec2<Real> squeezed{rim.x, squeeze_ * rim.y};
         const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
         const Real x = dot(squeezed, mid_);
-        // The sine of the angle from the farthest point.
         const Real cross = farthest_.x * rim.y - farthest_.y * rim.x;
         const Real y = squeeze_ * abs(cross) / mid_length_;
         const auto wide = x < Real(0);
-        const Real angle =
-            Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
-        return copysign(angle, cross);
+        return {copysign(stretch_ * select(wide, length - x, y), cross), select(wide, y, length + x)};
+    }
+    NUSSELT_HD static Real angle_of(const SinCos<Real>& half) noexcept {
+        return copysign(Real(2) * atan2_positive(abs(half.sin), half.cos), half.sin);
     }
 
     NUSSELT_HD void finish(Turn& turn, const Real& far_cosine) const noexcept {
@@ -304,16 +311,18 @@ private:
         const Real far_sine = farthest_.x * rim.y - farthest_.y * rim.x;
         const Real t = tangent_cosine_;
         const Real sum = multiply_add(Real(2) * t, far_cosine, multiply_add(t, t, Real(1)));
-        const Real factor = Real(2) * detail::over_positive(turn.volume, away_) / max(sum, Real(kTiny<Scalar>));
-        const Vec2<Real> on_rim = from_farthest(
-            {factor * multiply_add(t, far_cosine, Real(1)), factor * t * far_sine});
+        const Real factor =
+            Real(2) * detail::over_positive(turn.volume, away_) / max(sum, Real(kTiny<Scalar>));
+        const Vec2<Real> on_rim =
+            from_farthest({factor * multiply_add(t, far_cosine, Real(1)), factor * t * far_sine});
         const Vec2<Real> chord = select(is_inside_, rim - inner_, on_rim);
         turn.near_end = rim - chord;
         turn.far_length = length_of(rim);
         turn.near_length = length_of(turn.near_end);
 
         // The angle between both ends: no term of the cross product cancels.
-        const Vec3<Real> normal{(b_ * c_) * chord.y, (a_ * c_) * chord.x, (a_ * b_) * (rim.x * chord.y - rim.y * chord.x)};
+        const Vec3<Real> normal{(b_ * c_) * chord.y, (a_ * c_) * chord.x,
+                                (a_ * b_) * (rim.x * chord.y - rim.y * chord.x)};
         const Vec2<Real>& near_end = turn.near_end;
         const Real scalar = (a_ * rim.x) * (a_ * near_end.x) + (b_ * rim.y) * (b_ * near_end.y) + c_ * c_;
         turn.angle = atan2_positive(length(normal), scalar);
@@ -331,12 +340,13 @@ private:
 
     Real a_, b_, c_;
     Vec3<Real> pole_, h_;
-    Real turn_sign_;                       ///< of angles in the disk as half-planes turn up from the first horizon
-    Real volume_, away_, level_;           ///< the pole as a point of the disk, divided by volume_: level_ is the weight
-    mask_t<Real> is_inside_;               ///< whether the pole is in the cone
-    Vec2<Real> farthest_;                  ///< the point of the rim opposite to the pole
-    Real tangent_cosine_;                  ///< of the angle between the pole and the points at which planes through it touch
-    Vec2<Real> inner_;                     ///< the pole within the disk
+    Real turn_sign_; ///< of angles in the disk as half-planes turn up from the first horizon
+    Real volume_, away_,
+        level_;              ///< the pole as a point of the disk, divided by volume_: level_ is the weight
+    mask_t<Real> is_inside_; ///< whether the pole is in the cone
+    Vec2<Real> farthest_;    ///< the point of the rim opposite to the pole
+    Real tangent_cosine_; ///< of the angle between the pole and the points at which planes through it touch
+    Vec2<Real> inner_;    ///< the pole within the disk
     Vec3<Real> basis_h_, basis_p_, basis_n_; ///< h, pole and normal in the basis of the cone
     mask_t<Real> is_clipped_, is_lit_;
     Real squeeze_, stretch_;
@@ -354,11 +364,12 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.volume_, self.away_, self.level_,
-              self.is_inside_, self.farthest_, self.tangent_cosine_, self.inner_, self.basis_h_, self.basis_p_,
-              self.basis_n_, self.is_clipped_, self.is_lit_, self.squeeze_, self.stretch_, self.mid_, self.mid_length_,
-              self.starts_at_horizon_, self.start_, self.level_cosine_, self.level_sine_, self.horizon_, self.begin_,
-              self.start_sine_, self.start_cosine_, self.start_scale_, self.start_squeezed_, self.half_range_);
+        visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.volume_, self.away_,
+              self.level_, self.is_inside_, self.farthest_, self.tangent_cosine_, self.inner_, self.basis_h_,
+              self.basis_p_, self.basis_n_, self.is_clipped_, self.is_lit_, self.squeeze_, self.stretch_,
+              self.mid_, self.mid_length_, self.starts_at_horizon_, self.start_, self.level_cosine_,
+              self.level_sine_, self.horizon_, self.begin_, self.start_sine_, self.start_cosine_,
+              self.start_scale_, self.start_squeezed_, self.half_range_);
     }
 };
 

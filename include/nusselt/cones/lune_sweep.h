@@ -57,9 +57,11 @@ public:
     LuneSweep() = default;
 
     /// \param normal of the second horizon, (x, 0, z), of unit length.
-    NUSSELT_HD explicit LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept : map_(map) {
+    NUSSELT_HD explicit LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept
+        : map_(map) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Warp>(map_));
-        measure_ = detail::swept_measure(rim_.integral() * map_.scale(), mask_t<Real>(map_.is_clipped() & is_visible));
+        measure_ = detail::swept_measure(rim_.integral() * map_.scale(),
+                                         mask_t<Real>(map_.is_clipped() & is_visible));
     }
 
     template <class Single>
@@ -96,7 +98,8 @@ public:
         const auto half = sincos_half_turn(Real(0.5) * angle);
         const Real below = rim_.below(Warp::squeezed(turn.z));
         return {below_one(detail::over_positive(below, rim_.integral())),
-                below_one(detail::over_positive(map_.measure_up_to(turn, angle, half.sin, half.cos), whole(turn)))};
+                below_one(
+                    detail::over_positive(map_.measure_up_to(turn, angle, half.sin, half.cos), whole(turn)))};
     }
 
     /// Projected solid angle of the part between both horizons [sr].
@@ -127,7 +130,8 @@ private:
             const Real sine = sincos_half_turn(turn.near_gamma + angle).sin;
             const Real inverse = detail::over_positive(Real(1), turn.across);
             const Real slope = sine * inverse * (sine * inverse) * inverse;
-            const Real step = detail::over_positive(map_.measure_up_to(turn, angle, half.sin, half.cos) - goal, slope);
+            const Real step =
+                detail::over_positive(map_.measure_up_to(turn, angle, half.sin, half.cos) - goal, slope);
             angle = min(max(angle - step, Real(0)), turn.angle);
         }
         return angle;
