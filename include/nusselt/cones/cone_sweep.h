@@ -14,11 +14,9 @@
 /// result give its distribution up to rounding for ordinary lights, 64 for nearly all that are close to the point or much longer
 /// than wide (docs/techniques/elliptic_cone.md).
 
+#include <nusselt/cones/rim_densities.h>
 #include <nusselt/cones/rim_distribution.h>
 #include <nusselt/cones/rim_map.h>
-#if NUSSELT_HAS_VERTEX_LANES
-#include <nusselt/simd/pack.h>
-#endif
 
 NUSSELT_NAMESPACE_BEGIN
 
@@ -28,6 +26,18 @@ struct ConeSample {
     Vec3<Real> wi;   ///< unit
     Vec2<Real> disk; ///< the point of the disk of the cone
 };
+
+namespace detail {
+
+/// The measure of the sweep per z.
+struct CosineSweepDensity {
+    template <class Real>
+    NUSSELT_HD static Real at(const RimMap<Real>& map, const Real& z) noexcept {
+        return map.density(map.turned(z));
+    }
+};
+
+} // namespace detail
 
 /// \tparam Real float, double, long double or a pack.
 ///
@@ -40,15 +50,8 @@ public:
 
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
-        rim_ = RimDistribution<Real, Places>(Densities{map_});
-        const Real measure = rim_.integral() * map_.scale();
-        const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
-        // Fractions of the measure must not be denormal: processors may flush them to zero.
-        const auto positive = measure > Real(4 * std::numeric_limits<scalar_t<Real>>::min());
-        const auto fits = is_finite(inverse);
-        const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
-        measure_ = select(lit, measure, Real(0));
-        inverse_measure_ = select(lit, inverse, Real(0));
+        rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<detail::CosineSweepDensity>(map_));
+        measure_ = detail::swept_measure(rim_.integral() * map_.scale(), map_.is_lit(cone));
     }
 
     template <class Single>
@@ -79,10 +82,10 @@ public:
 
     /// The density of a unit direction in the cone over its cosine [1/sr].
     NUSSELT_HD Real density_per_cosine(const Vec3<Real>& wi) const noexcept {
-        if (all(rim_.is_exact())) return inverse_measure_;
+        if (all(rim_.is_exact())) return measure_.inverse;
         const auto turn = map_.turned(map_.place_of(wi));
         const Real ratio = detail::over_positive(rim_.value(turn.z), map_.density(turn));
-        return select(rim_.is_exact(), Real(1), ratio) * inverse_measure_;
+        return select(rim_.is_exact(), Real(1), ratio) * measure_.inverse;
     }
 
     /// The random numbers for which sample() returns a unit direction in the cone.
@@ -100,39 +103,17 @@ public:
     }
 
     /// Projected solid angle of the part above the horizon [sr].
-    NUSSELT_HD Real measure() const noexcept { return measure_; }
+    NUSSELT_HD Real measure() const noexcept { return measure_.value; }
 
 private:
-    /// The densities at all nodes. Scalar code takes the nodes as lanes, which have the bits of scalars.
-    struct Densities {
-        const RimMap<Real>& map;
-
-        template <class Nodes>
-        NUSSELT_HD void operator()(Real (&value)[Nodes::kNodes]) const noexcept {
-#if NUSSELT_HAS_VERTEX_LANES
-            if constexpr (std::is_same_v<Real, float>) {
-                constexpr int kLanes = 8;
-                using Lanes = Pack<float, kLanes>;
-                const RimMap<Lanes> lanes(map);
-                float node[Nodes::kNodes];
-                for (int i = 0; i < Nodes::kNodes; ++i) node[i] = Nodes::node(i);
-                for (int i = 0; i < Nodes::kNodes; i += kLanes)
-                    lanes.density(lanes.turned(Lanes::load(node + i))).store(value + i);
-                return;
-            }
-#endif
-            for (int i = 0; i < Nodes::kNodes; ++i) value[i] = map.density(map.turned(Real(Nodes::node(i))));
-        }
-    };
-
     RimMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    Real measure_, inverse_measure_;
+    detail::SweptMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.map_, self.rim_, self.measure_, self.inverse_measure_);
+        visit(self.map_, self.rim_, self.measure_);
     }
 };
 

@@ -96,9 +96,7 @@ public:
         mid_ = (Real(1) / mid_length_) * squeezed;
         const Real length = length_of(farthest_);
         const Real along = along_of(farthest_) / length, beside = across_of(farthest_) / length;
-        const auto behind = along < Real(0);
-        const Real versine =
-            select(behind, beside * beside, Real(1) + along) / select(behind, Real(1) - along, Real(1));
+        const Real versine = detail::versine(beside, -along);
         stretch_ = Real(1) / sqrt(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
 
         // The rim from the first horizon, or where the first half-plane touches it, to the second horizon.

@@ -1,5 +1,6 @@
 #pragma once
-/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function.
+/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function. z is the place on a rim, or a function of it
+/// with which densities that do not vanish at an end get a zero there (solid_sweep.h, lune_sweep.h).
 ///
 /// 16 places of the density give a polynomial (rim_polynomial.h). Where its last coefficients tell that it is not accurate,
 /// 64 places take over if the caller asks for them; where those do not suffice either, the density is linear between the first 16
@@ -179,8 +180,8 @@ private:
     Fine fine_; ///< set only where the coarse one does not suffice in any lane
     Real value_[kNodes];
     Real below_[kNodes + 1]; ///< integrals of the linear interpolant up to the nodes, and to 1
-    mask_t<Real> is_close_, is_coarse_, is_fine_,
-        is_exact_; ///< is_close_: whether the coarse polynomial is positive
+    mask_t<Real> is_close_;  ///< whether the coarse polynomial is positive
+    mask_t<Real> is_coarse_, is_fine_, is_exact_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

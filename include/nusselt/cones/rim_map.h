@@ -35,21 +35,28 @@ NUSSELT_INLINE HorizonGaps<Real> horizon_gaps(const Vec3<Real>& lengths, const V
     return {max(difference.value + error, Real(0)) / (larger * scaled), larger / scaled};
 }
 
+/// 1 minus the cosine of an angle in [0, pi), relative to itself.
+template <class Real>
+NUSSELT_INLINE Real versine(const Real& sine, const Real& cosine) noexcept {
+    const auto forwards = cosine > Real(0);
+    return select(forwards, sine * sine, Real(1) - cosine) / select(forwards, Real(1) + cosine, Real(1));
+}
+
 } // namespace detail
 
 /// \tparam Real float, double, long double or a pack.
 ///
-/// The horizon is z = 0. Lanes whose cone it does not cut have is_cut() false and any numbers.
+/// The horizon is z = 0. Lanes whose cone it does not cut have is_lit() false and any numbers.
 template <class Real>
 class RimMap {
     using Scalar = scalar_t<Real>;
 
 public:
-    /// A point of the rim.
+    /// A point of the rim. Its direction is not of unit length.
     struct Rim {
-        Vec2<Real> disk; ///< across and up from the axis
-        Real length, along, aside,
-            up; ///< of its direction, which is not of unit length, and in the basis p, h, n
+        Vec2<Real> disk;       ///< across and up from the axis
+        Real length;           ///< of the direction
+        Real along, aside, up; ///< the direction in the basis p, h, n
     };
     struct Angle {
         Real value, sine, cosine;
@@ -126,8 +133,8 @@ public:
         const Real cosine = max(top.along / top.length, Real(-1));
         stretch_ = Real(1) / sqrt(max(Real(0.5) * (Real(1) + cosine),
                                       Real(64 * std::numeric_limits<Scalar>::epsilon())));
-        left_ = end_of_arc(-half_arc);
-        const Real right = end_of_arc(half_arc);
+        left_ = angle_at({-half_arc, -height_});
+        const Real right = angle_at({half_arc, -height_});
         half_range_ = Real(0.5) * (right - left_);
     }
 
@@ -136,7 +143,10 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    NUSSELT_HD const mask_t<Real>& is_cut() const noexcept { return is_cut_; }
+    /// Whether the horizon cuts the cone, and the cone has an extent.
+    NUSSELT_HD mask_t<Real> is_lit(const EllipticCone<Real>& cone) const noexcept {
+        return is_cut_ & cone.is_visible;
+    }
     /// Unit and horizontal: to the pole, and perpendicular to it.
     NUSSELT_HD const Vec3<Real>& p() const noexcept { return p_; }
     NUSSELT_HD const Vec3<Real>& h() const noexcept { return h_; }
@@ -225,10 +235,7 @@ public:
 
     /// 1 minus the cosine of the angle of a point of the rim from the pole.
     NUSSELT_HD static Real versine_of(const Rim& rim) noexcept {
-        const Real sine = detail::hypotenuse(rim.aside, rim.up) / rim.length;
-        const Real cosine = cosine_of(rim);
-        const auto forwards = cosine > Real(0);
-        return select(forwards, sine * sine, Real(1) - cosine) / select(forwards, Real(1) + cosine, Real(1));
+        return detail::versine(detail::hypotenuse(rim.aside, rim.up) / rim.length, cosine_of(rim));
     }
 
     /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
@@ -252,16 +259,7 @@ public:
             select(inwards, (root - half) / safe, power_ / select(inwards, Real(1), half + root));
         const Vec2<Real> point{multiply_add(reach, ray.x, pole_), multiply_add(reach, ray.y, -height_)};
 
-        // Apply the squeeze and the stretch.
-        const Vec2<Real> end{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
-        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
-        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
-        const Real x = dot(squeezed, mid_);
-        const Real y = squeeze_ * abs(point.x) / mid_length_;
-        const auto wide = x < Real(0);
-        const Real angle =
-            Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
-        const Real zeta = copysign(angle, point.x);
+        const Real zeta = angle_at(point);
         const Real z = detail::over_positive(zeta - left_, half_range_) - Real(1);
         return min(max(z, Real(-1)), Real(1));
     }
@@ -284,20 +282,19 @@ private:
                 multiply_add(narrowing_, offset, shear_ * clearance), slope_ * clearance};
     }
 
-    /// The angle of the map at an end of the horizon's arc.
-    /// \param sine of the angle in the disk from the highest point.
-    NUSSELT_HD Real end_of_arc(const Real& sine) const noexcept {
-        // Its cosine is -h0. Turned by the squeeze, sine and cosine are those below, up to a common factor.
-        const Vec2<Real> end{-height_ * up_.x - sine * up_.y, -height_ * up_.y + sine * up_.x};
-        const Vec2<Real> squeezed{end.x, squeeze_ * end.y};
+    /// The angle of the map of a point of the rim, given across and up from the axis.
+    NUSSELT_HD Real angle_at(const Vec2<Real>& point) const noexcept {
+        // Turned by the squeeze, sine and cosine are those below, up to a common factor.
+        const Vec2<Real> turned{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
+        const Vec2<Real> squeezed{turned.x, squeeze_ * turned.y};
         const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
         const Real x = dot(squeezed, mid_);
-        const Real y = squeeze_ * abs(sine) / mid_length_;
+        const Real y = squeeze_ * abs(point.x) / mid_length_;
         // The tangent of the half of the angle, from the sum that does not cancel.
         const auto wide = x < Real(0);
         const Real angle =
             Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
-        return copysign(angle, sine);
+        return copysign(angle, point.x);
     }
 
     NUSSELT_HD static SinCos<Real> sincos_quarter_turn_with_sign(const Real& angle) noexcept {

@@ -9,11 +9,46 @@
 /// with the point of the rim R that it meets. Unlike that of the cosine, it does not vanish at the ends of the
 /// horizon's arc. With z = w (3 - w^2) / 2 it has the factor 1 - w^2 in w, and so the polynomial of rim_distribution.h.
 
+#include <limits>
+
 #include <nusselt/cones/cone_sweep.h>
+#include <nusselt/cones/rim_densities.h>
 #include <nusselt/cones/rim_distribution.h>
 #include <nusselt/cones/rim_map.h>
 
 NUSSELT_NAMESPACE_BEGIN
+
+namespace detail {
+
+/// A change of the variable, from w to z: a density that does not vanish at both ends has the factor 1 - w^2 in w.
+struct SolidSweepPlaces {
+    /// \param w in [-1, 1]
+    template <class Real>
+    NUSSELT_HD static Real stretched(const Real& w) noexcept {
+        return Real(0.5) * w * multiply_add(-w, w, Real(3));
+    }
+    /// The derivative of stretched().
+    template <class Real>
+    NUSSELT_HD static Real slope(const Real& w) noexcept {
+        return Real(1.5) * ((Real(1) - w) * (Real(1) + w));
+    }
+    /// The inverse of stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends, where
+    /// densities are quotients of numbers that vanish.
+    template <class Real>
+    NUSSELT_HD static Real squeezed(const Real& z) noexcept {
+        using Scalar = scalar_t<Real>;
+        const Real angle = atan2_positive(abs(z), sqrt(max((Real(1) - z) * (Real(1) + z), Real(0))));
+        const Real w = Real(2) * sincos_quarter_turn(Real(Scalar(1) / 3) * angle).sin;
+        return copysign(min(w, Real(1 - 4 * std::numeric_limits<Scalar>::epsilon())), z);
+    }
+    /// The measure of the sweep per w.
+    template <class Real>
+    NUSSELT_HD static Real at(const RimMap<Real>& map, const Real& w) noexcept {
+        return slope(w) * map.solid_density(map.turned(stretched(w)));
+    }
+};
+
+} // namespace detail
 
 /// \tparam Real float, double, long double or a pack.
 ///
@@ -21,22 +56,15 @@ NUSSELT_NAMESPACE_BEGIN
 /// \tparam Places of the rim, kConePlaces or kFineConePlaces.
 template <class Real, int Places>
 class SolidSweep {
-    using Scalar = scalar_t<Real>;
+    using Change = detail::SolidSweepPlaces;
 
 public:
     SolidSweep() = default;
 
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit SolidSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
-        rim_ = RimDistribution<Real, Places>(Densities{map_});
-        const Real measure = rim_.integral() * map_.solid_scale();
-        const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
-        // Fractions of the measure must not be denormal: processors may flush them to zero.
-        const auto positive = measure > Real(4 * std::numeric_limits<Scalar>::min());
-        const auto fits = is_finite(inverse);
-        const auto lit = map_.is_cut() & cone.is_visible & positive & fits;
-        measure_ = select(lit, measure, Real(0));
-        inverse_measure_ = select(lit, inverse, Real(0));
+        rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Change>(map_));
+        measure_ = detail::swept_measure(rim_.integral() * map_.solid_scale(), map_.is_lit(cone));
     }
 
     template <class Single>
@@ -46,7 +74,7 @@ public:
 
     /// \param u in [0, 1)^2; u.x turns around the pole, u.y leads away from it. Continuous in both.
     NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const auto turn = map_.turned(stretched(rim_.invert(u.x)));
+        const auto turn = map_.turned(Change::stretched(rim_.invert(u.x)));
         const auto& rim = turn.rim;
         const Real versine = u.y * map_.versine_of(rim);
         const Real cosine = Real(1) - versine;
@@ -66,84 +94,34 @@ public:
 
     /// The density of a unit direction in the cone [1/sr].
     NUSSELT_HD Real density(const Vec3<Real>& wi) const noexcept {
-        if (all(rim_.is_exact())) return inverse_measure_;
+        if (all(rim_.is_exact())) return measure_.inverse;
         const auto turn = map_.turned(map_.place_of(wi));
-        const Real w = squeezed(turn.z);
-        const Real ratio = detail::over_positive(rim_.value(w), slope(w) * map_.solid_density(turn));
-        return select(rim_.is_exact(), Real(1), ratio) * inverse_measure_;
+        const Real w = Change::squeezed(turn.z);
+        const Real ratio = detail::over_positive(rim_.value(w), Change::slope(w) * map_.solid_density(turn));
+        return select(rim_.is_exact(), Real(1), ratio) * measure_.inverse;
     }
 
     /// The random numbers for which sample() returns a unit direction in the cone.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept {
         const auto turn = map_.turned(map_.place_of(wi));
         const Real across = detail::hypotenuse(dot(wi, map_.h()), wi.z), along = dot(wi, map_.p());
-        const auto forwards = along > Real(0);
-        const Real versine =
-            select(forwards, across * across, Real(1) - along) / select(forwards, Real(1) + along, Real(1));
-        const Real below = rim_.below(squeezed(turn.z));
+        const Real below = rim_.below(Change::squeezed(turn.z));
         return {below_one(detail::over_positive(below, rim_.integral())),
-                below_one(detail::over_positive(versine, map_.versine_of(turn.rim)))};
+                below_one(detail::over_positive(detail::versine(across, along), map_.versine_of(turn.rim)))};
     }
 
     /// Solid angle of the part above the horizon [sr].
-    NUSSELT_HD Real measure() const noexcept { return measure_; }
+    NUSSELT_HD Real measure() const noexcept { return measure_.value; }
 
 private:
-    /// \param w in [-1, 1]
-    NUSSELT_HD static Real stretched(const Real& w) noexcept {
-        return Real(0.5) * w * multiply_add(-w, w, Real(3));
-    }
-    /// The derivative of stretched().
-    NUSSELT_HD static Real slope(const Real& w) noexcept {
-        return Real(1.5) * ((Real(1) - w) * (Real(1) + w));
-    }
-    /// The inverse of stretched(): the root of a cubic, by a third of an angle. It keeps away from the ends, where
-    /// densities are quotients of numbers that vanish.
-    NUSSELT_HD static Real squeezed(const Real& z) noexcept {
-        const Real angle = atan2_positive(abs(z), sqrt(max((Real(1) - z) * (Real(1) + z), Real(0))));
-        const Real w = Real(2) * sincos_quarter_turn(Real(Scalar(1) / 3) * angle).sin;
-        return copysign(min(w, Real(1 - 4 * std::numeric_limits<Scalar>::epsilon())), z);
-    }
-
-    /// The densities in w at all nodes.
-    struct Densities {
-        const RimMap<Real>& map;
-
-        template <class Nodes>
-        NUSSELT_HD void operator()(Real (&value)[Nodes::kNodes]) const noexcept {
-#if NUSSELT_HAS_VERTEX_LANES
-            // Scalar code takes the nodes as lanes, which have the bits of scalars.
-            if constexpr (std::is_same_v<Real, float>) {
-                constexpr int kLanes = 8;
-                using Lanes = Pack<float, kLanes>;
-                const RimMap<Lanes> lanes(map);
-                float node[Nodes::kNodes];
-                for (int i = 0; i < Nodes::kNodes; ++i) node[i] = Nodes::node(i);
-                for (int i = 0; i < Nodes::kNodes; i += kLanes) {
-                    const Lanes w = Lanes::load(node + i);
-                    const auto turn = lanes.turned(SolidSweep<Lanes, Places>::stretched(w));
-                    (SolidSweep<Lanes, Places>::slope(w) * lanes.solid_density(turn)).store(value + i);
-                }
-                return;
-            }
-#endif
-            for (int i = 0; i < Nodes::kNodes; ++i) {
-                const Real w(Nodes::node(i));
-                value[i] = slope(w) * map.solid_density(map.turned(stretched(w)));
-            }
-        }
-    };
-
     RimMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    Real measure_, inverse_measure_;
+    detail::SweptMeasure<Real> measure_;
 
-    template <class, int>
-    friend class SolidSweep;
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.map_, self.rim_, self.measure_, self.inverse_measure_);
+        visit(self.map_, self.rim_, self.measure_);
     }
 };
 
