@@ -49,10 +49,10 @@ public:
     NUSSELT_HD LightSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const ConeSample<Real> s = image_sample(u);
         const auto dark = !(measure_ > Real(0));
-        Vec3<Real> wi = normalize(ltc_.to_shading(s.wi));
+        Vec3<Real> direction = ltc_.to_shading(s.wi);
         // Rounding must not lead below a horizon that the light touches.
-        wi.z = max(wi.z, Real(0));
-        wi = select(dark, Vec3<Real>{Real(0), Real(0), Real(1)}, wi);
+        direction.z = max(direction.z, Real(0));
+        const Vec3<Real> wi = select(dark, Vec3<Real>{Real(0), Real(0), Real(1)}, normalize(direction));
         const Real distance = max(dot(wi, view_.point(s.disk, wi)), Real(0));
         return {wi, pdf(wi), (view_.inverse_scale * distance) * wi};
     }

@@ -56,11 +56,13 @@ public:
         volume_ = max(away, vw);
         away_ = away * inverse;
         level_ = vw * inverse;
-        is_inside_ = vw >= away;
+        // A pole within rounding of the rim counts as one on the rim: there, half-planes on the far side have no end of their own.
+        is_inside_ = vw > Real(1 + 256 * std::numeric_limits<Scalar>::epsilon()) * away;
         const auto aside = away > Real(kTiny<Scalar>) * volume_;
         const Real inverse_away = Real(1) / select(aside, away, Real(1));
         farthest_ = {select(aside, -vx * inverse_away, Real(1)), select(aside, -vy * inverse_away, Real(0))};
-        tangent_cosine_ = select(is_inside_, Real(0), level_ / select(is_inside_, Real(1), away_));
+        tangent_cosine_ =
+            select(is_inside_, Real(0), min(level_ / select(is_inside_, Real(1), away_), Real(1)));
         const Real inverse_level = Real(1) / select(is_inside_, vw, Real(1));
         inner_ = {vx * inverse_level, vy * inverse_level};
 
@@ -83,10 +85,11 @@ public:
         const Chord first_cut = chord_of(basis_n_, basis_h_), second_cut = chord_of(second, out);
         const auto has_second = lateral > Real(4 * std::numeric_limits<Scalar>::epsilon());
         is_clipped_ = wide & has_second & second_cut.is_met;
-        const auto above_both =
-            (!first_cut.is_cut) & (basis_n_.z > Real(0)) & (!second_cut.is_cut) & (second.z > Real(0));
-        const auto above_first = first_cut.is_met | above_both;
-        is_lit_ = is_clipped_ | (has_second & above_first) | ((!has_second) & (normal.z > Real(0)));
+        // A cone that only touches the second horizon is on the side of its axis.
+        const auto above_first = first_cut.is_met | ((!first_cut.is_cut) & (basis_n_.z > Real(0)));
+        const auto above_second = second_cut.is_cut | (second.z > Real(0));
+        is_lit_ =
+            is_clipped_ | (has_second & above_first & above_second) | ((!has_second) & (normal.z > Real(0)));
 
         // Choose the map of the rim.
         const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);
@@ -108,7 +111,9 @@ public:
         level_cosine_ = select(starts_at_horizon_, -first_cut.height, -tangent_cosine_);
         level_sine_ = select(starts_at_horizon_, first_cut.half, tangent_sine);
         horizon_ = first_cut.steepness;
-        const SinCos<Real> half = half_angle_at(start_);
+        SinCos<Real> half = half_angle_at(start_);
+        // A pole on the rim is where half-planes touch, at half a turn from the farthest point: on the side of the start.
+        half.sin = copysign(half.sin, select(starts_at_horizon_, half.sin, -turn_sign_));
         begin_ = angle_of(half);
         const Real inverse_half = Real(1) / detail::hypotenuse(half.sin, half.cos);
         start_sine_ = inverse_half * half.sin;
@@ -168,9 +173,10 @@ public:
         const auto obtuse = from_cosine < Real(0);
         const Real root = sqrt(max(Real(0.5) * (Real(1) + abs(from_cosine)), Real(0.5)));
         const Real other = Real(0.5) * from_sine / root;
-        const Real quarter_sine = select(obtuse, root, other), quarter_cosine = select(obtuse, other, root);
-        const Real gain = Real(2) * quarter_sine *
-                          max(level_sine_ * quarter_cosine - level_cosine_ * quarter_sine, Real(0));
+        const Real from_half_sine = select(obtuse, root, abs(other));
+        const Real from_half_cosine = select(obtuse, other, copysign(root, other));
+        const Real gain = Real(2) * from_half_sine *
+                          max(level_sine_ * from_half_cosine - level_cosine_ * from_half_sine, Real(0));
 
         // Heights above the horizon and above the tangent from the pole: one of them vanishes at the start.
         const Real far_cosine = dot(rim, farthest_);
