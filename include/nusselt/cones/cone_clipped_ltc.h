@@ -1,26 +1,27 @@
 #pragma once
-/// Sampling of the part above the surface of spheres, disks, ellipses and ellipsoids in proportion to a linearly transformed cosine.
+/// Sampling of the part above the surface of spheres, disks, ellipses and ellipsoids in proportion to a linearly
+/// transformed cosine.
 ///
-/// Derived here. In cosine space the surface's horizon is one more plane through the origin. Where it cuts the light, half-planes
-/// around the line in which both horizons meet sweep the light (lune_sweep.h). Lobes are symmetric to the plane of incidence, so
-/// that this line is always the y-axis. Elsewhere samples are those of ConeLtc.
+/// Derived here. In cosine space the surface's horizon is one more plane through the origin. Where it cuts the light,
+/// half-planes around the line in which both horizons meet sweep the light (lune_sweep.h). Lobes are symmetric to the
+/// plane of incidence, so that this line is always the y-axis. Elsewhere samples are those of ConeLtc.
 
 #include <nusselt/cones/cone_ltc.h>
 #include <nusselt/cones/lune_sweep.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Steps  of the iteration for images above both horizons.
 /// \tparam Places of the rim where a horizon cuts it: kConePlaces, or kFineConePlaces where those do not suffice.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is nearly constant
-/// (docs/techniques/elliptic_cone.md has numbers). density(wi) / pdf is unbiased.
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is nearly
+/// constant (docs/techniques/elliptic_cone.md has numbers). density(wi) / pdf is unbiased.
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips to both horizons. wi.z is not negative.
-/// Edge cases: those of ConeLtc; nothing above both horizons: pdf = 0, measure 0. From inside a sphere or an ellipsoid, the part of
-/// the lobe above the surface leads to its surface.
+/// Edge cases: those of ConeLtc; nothing above both horizons: pdf = 0, measure 0. From inside a sphere or an ellipsoid,
+/// the part of the lobe above the surface leads to its surface.
 template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>
 class ConeClippedLtc {
     using Scalar = scalar_t<Real>;
@@ -28,15 +29,17 @@ class ConeClippedLtc {
 public:
     /// \param light in shading space [m].
     NUSSELT_HD ConeClippedLtc(const Light<Real>& light, const Ltc<Real>& ltc) noexcept
-        : ltc_(ltc), view_(view_of(light, [&](const Vec3<Real>& v) { return ltc.to_cosine(v); })), lune_() {
+        : ltc_(ltc),
+          view_(view_of(light, [&](const Vec3<Real>& v) { return ltc.to_cosine(v); })),
+          image_(),
+          lune_() {
         const LuneMap<Real> map(view_.cone,
                                 normalize(ltc.normal_to_cosine(Vec3<Real>{Real(0), Real(0), Real(1)})));
         is_clipped_ = map.is_clipped();
         if (!all(is_clipped_)) image_ = CosineCone<Real, Steps, Places>(view_.cone);
         // The sweep is costly to prepare, and seldom needed.
         if (any(is_clipped_)) lune_ = LuneSweep<Real, Places>(map, view_.cone.is_visible);
-        if (!all(is_clipped_)) measure_ = select(map.is_lit(), image_.measure(), Real(0));
-        measure_ = select(is_clipped_, lune_.measure(), measure_);
+        measure_ = select(is_clipped_, lune_.measure(), select(map.is_lit(), image_.measure(), Real(0)));
     }
 
     /// Broadcasts a technique for a single light to all lanes of a pack, to take many samples of one light.

@@ -1,35 +1,38 @@
 #pragma once
-/// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
-/// lune_sweep.h.
+/// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
+/// smooth. See lune_sweep.h.
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/cones/rim_map.h>
+#include <nusselt/core/trig.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 /// \tparam Real float, double, long double or a pack.
 ///
-/// The first horizon is z = 0, the second one a plane through the y-axis. Half-planes through the y-axis turn from the first one to
-/// the second one around the pole, that of the two directions of the axis that is closer to the axis of the cone.
+/// The first horizon is z = 0, the second one a plane through the y-axis. Half-planes through the y-axis turn from the
+/// first one to the second one around the pole, that of the two directions of the axis that is closer to the axis of
+/// the cone.
 template <class Real>
 class LuneMap {
     using Scalar = scalar_t<Real>;
 
 public:
-    /// A half-plane and what it has of the cone: the way from the near end, on the rim or at the pole, to the far end on the rim.
+    /// A half-plane and what it has of the cone: the way from the near end, on the rim or at the pole, to the far end
+    /// on the rim.
     struct Turn {
         Real z;
         Vec2<Real> far_end, near_end; ///< in the disk of the cone
         Real far_length, near_length; ///< of their directions, which are not of unit length
-        Vec2<Real> away; ///< the direction of the half-plane along h and the normal, of unit length
-        Real gamma;      ///< angle of the far end from the pole
-        Real near_gamma; ///< that of the near end
-        Real angle, half_sine, half_cosine; ///< between both ends, and functions of its half
-        Real clearance;                     ///< height of the far end above the first horizon
-        Real across;                        ///< distance of the far end from the axis of the pole
-        Real volume;                        ///< of pole, far end and its derivative
-        Real jacobian;                      ///< angle in the disk per angle of the map
+        Vec2<Real> away;              ///< the half-plane's direction along h and the normal, of unit length
+        Real gamma, near_gamma;       ///< angles of both ends from the pole
+        Real angle;                   ///< between both ends
+        Real half_sine, half_cosine;  ///< of half of it
+        Real clearance;               ///< height of the far end's direction above the first horizon
+        Real across;                  ///< distance of the far end's direction from the axis of the pole
+        Real volume;                  ///< of pole, far end and its derivative, up to a constant
+        Real jacobian;                ///< angle in the disk per angle of the map
     };
 
     LuneMap() = default;
@@ -56,7 +59,8 @@ public:
         volume_ = max(away, vw);
         away_ = away * inverse;
         level_ = vw * inverse;
-        // A pole within rounding of the rim counts as one on the rim: there, half-planes on the far side have no end of their own.
+        // A pole within rounding of the rim counts as one on the rim: there, half-planes on the far side have no end of
+        // their own.
         is_inside_ = vw > Real(1 + 256 * std::numeric_limits<Scalar>::epsilon()) * away;
         const auto aside = away > Real(kTiny<Scalar>) * volume_;
         const Real inverse_away = Real(1) / select(aside, away, Real(1));
@@ -98,8 +102,10 @@ public:
         mid_length_ = detail::hypotenuse(squeezed.x, squeezed.y);
         mid_ = (Real(1) / mid_length_) * squeezed;
         const Real length = length_of(farthest_);
-        const Real along = along_of(farthest_) / length, beside = across_of(farthest_) / length;
-        const Real versine = detail::versine(beside, -along);
+        const Real along = component(farthest_, basis_p_) / length;
+        const Real across =
+            detail::hypotenuse(component(farthest_, basis_h_), component(farthest_, basis_n_)) / length;
+        const Real versine = detail::versine(across, -along);
         stretch_ = Real(1) / sqrt(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
 
         // The rim from the first horizon, or where the first half-plane touches it, to the second horizon.
@@ -112,14 +118,16 @@ public:
         level_sine_ = select(starts_at_horizon_, first_cut.half, tangent_sine);
         horizon_ = first_cut.steepness;
         SinCos<Real> half = half_angle_at(start_);
-        // A pole on the rim is where half-planes touch, at half a turn from the farthest point: on the side of the start.
+        // A pole on the rim is where half-planes touch, at half a turn from the farthest point: on the side of the
+        // start.
         half.sin = copysign(half.sin, select(starts_at_horizon_, half.sin, -turn_sign_));
         begin_ = angle_of(half);
         const Real inverse_half = Real(1) / detail::hypotenuse(half.sin, half.cos);
         start_sine_ = inverse_half * half.sin;
         start_cosine_ = inverse_half * half.cos;
         start_scale_ = detail::hypotenuse(stretch_ * start_cosine_, start_sine_);
-        start_squeezed_ = squeezed_length(start_);
+        // The length of diag(squeeze, 1) times the unit vector that leads to the start.
+        start_squeezed_ = squeeze_ / detail::hypotenuse(start_.x, squeeze_ * start_.y);
         const Real range = turn_sign_ * (angle_of(half_angle_at(second_cut.end)) - begin_);
         const auto wraps = is_inside_ & (range < Real(0));
         half_range_ = Real(0.5) * max(select(wraps, range + Real(2 * kPi<Scalar>), range), Real(0));
@@ -180,13 +188,11 @@ public:
 
         // Heights above the horizon and above the tangent from the pole: one of them vanishes at the start.
         const Real far_cosine = dot(rim, farthest_);
-        const Real height =
-            multiply_add(a_ * basis_n_.x, rim.x, multiply_add(b_ * basis_n_.y, rim.y, c_ * basis_n_.z));
-        turn.clearance = max(select(starts_at_horizon_, horizon_ * gain, height), Real(0));
+        turn.clearance = max(select(starts_at_horizon_, horizon_ * gain, component(rim, basis_n_)), Real(0));
         const Real volume =
             select(starts_at_horizon_ | is_inside_, multiply_add(away_, far_cosine, level_), away_ * gain);
         turn.volume = max(volume, Real(0));
-        finish(turn, far_cosine);
+        add_chord(turn, far_cosine);
         return turn;
     }
 
@@ -196,7 +202,8 @@ public:
         return turn.clearance * turn.volume * turn.jacobian * swept;
     }
 
-    /// The integral of the squared sine of the angle from the pole, over the cube of the distance of the far end from the axis.
+    /// The integral of the squared sine of the angle from the pole, over the cube of the distance of the far end from
+    /// the axis.
     /// \param angle from the near end; sine and cosine are those of its half.
     NUSSELT_HD static Real measure_up_to(const Turn& turn, const Real& angle, const Real& half_sine,
                                          const Real& half_cosine) noexcept {
@@ -258,41 +265,25 @@ private:
         const Vec2<Real> middle{-chord.height * up.x, -chord.height * up.y};
         const Vec2<Real> along{-chord.half * up.y, chord.half * up.x};
         const Vec2<Real> left = middle + along, right = middle - along;
-        const auto beyond = [&](const Vec2<Real>& end) {
-            return multiply_add(a_ * out.x, end.x, multiply_add(b_ * out.y, end.y, c_ * out.z));
-        };
-        const Real to_left = select(is_inside_, beyond(left), dot(left, farthest_));
-        const Real to_right = select(is_inside_, beyond(right), dot(right, farthest_));
+        const Real to_left = select(is_inside_, component(left, out), dot(left, farthest_));
+        const Real to_right = select(is_inside_, component(right, out), dot(right, farthest_));
         chord.end = select(to_left >= to_right, left, right);
-        chord.is_met = chord.is_cut & (is_inside_ | (beyond(chord.end) > Real(0)));
+        chord.is_met = chord.is_cut & (is_inside_ | (component(chord.end, out) > Real(0)));
         return chord;
     }
 
+    /// The direction of a point of the disk, not of unit length, along an axis that is given in the basis of the cone.
+    NUSSELT_HD Real component(const Vec2<Real>& disk, const Vec3<Real>& axis) const noexcept {
+        return multiply_add(a_ * axis.x, disk.x, multiply_add(b_ * axis.y, disk.y, c_ * axis.z));
+    }
     NUSSELT_HD Real length_of(const Vec2<Real>& disk) const noexcept {
         const Real x = a_ * disk.x, y = b_ * disk.y;
         return sqrt(multiply_add(x, x, multiply_add(y, y, c_ * c_)));
-    }
-    NUSSELT_HD Real along_of(const Vec2<Real>& disk) const noexcept {
-        return multiply_add(a_ * basis_p_.x, disk.x, multiply_add(b_ * basis_p_.y, disk.y, c_ * basis_p_.z));
-    }
-    NUSSELT_HD Real aside_of(const Vec2<Real>& disk) const noexcept {
-        return multiply_add(a_ * basis_h_.x, disk.x, multiply_add(b_ * basis_h_.y, disk.y, c_ * basis_h_.z));
-    }
-    NUSSELT_HD Real up_of(const Vec2<Real>& disk) const noexcept {
-        return multiply_add(a_ * basis_n_.x, disk.x, multiply_add(b_ * basis_n_.y, disk.y, c_ * basis_n_.z));
-    }
-    NUSSELT_HD Real across_of(const Vec2<Real>& disk) const noexcept {
-        return detail::hypotenuse(aside_of(disk), up_of(disk));
     }
 
     /// A vector of the disk from its coordinates along and across the direction to the farthest point.
     NUSSELT_HD Vec2<Real> from_farthest(const Vec2<Real>& v) const noexcept {
         return {farthest_.x * v.x - farthest_.y * v.y, farthest_.y * v.x + farthest_.x * v.y};
-    }
-
-    NUSSELT_HD Real squeezed_length(const Vec2<Real>& rim) const noexcept {
-        // The length of diag(squeeze, 1) times the unit vector that leads to the rim.
-        return squeeze_ / detail::hypotenuse(rim.x, squeeze_ * rim.y);
     }
 
     /// Half of the angle of the map of a point of the rim: a vector of any length.
@@ -309,7 +300,9 @@ private:
         return copysign(Real(2) * atan2_positive(abs(half.sin), half.cos), half.sin);
     }
 
-    NUSSELT_HD void finish(Turn& turn, const Real& far_cosine) const noexcept {
+    /// What a half-plane has of the cone, from its far end.
+    /// \param far_cosine of the angle between the far end and the farthest point.
+    NUSSELT_HD void add_chord(Turn& turn, const Real& far_cosine) const noexcept {
         const Vec2<Real>& rim = turn.far_end;
         // The other point of the rim on the line to the pole, or the pole if it is within.
         const Real far_sine = farthest_.x * rim.y - farthest_.y * rim.x;
@@ -334,46 +327,46 @@ private:
         turn.half_sine = half.sin;
         turn.half_cosine = half.cos;
 
-        const Real aside = aside_of(rim);
+        const Real aside = component(rim, basis_h_);
         turn.across = detail::hypotenuse(aside, turn.clearance);
         const Real inverse = detail::over_positive(Real(1), turn.across);
         turn.away = {select(turn.across > Real(0), aside * inverse, Real(1)), turn.clearance * inverse};
-        turn.gamma = atan2_positive(turn.across, along_of(rim));
+        turn.gamma = atan2_positive(turn.across, component(rim, basis_p_));
         turn.near_gamma = select(is_inside_, Real(0), max(turn.gamma - turn.angle, Real(0)));
     }
 
     Real a_, b_, c_;
     Vec3<Real> pole_, h_;
-    Real turn_sign_; ///< of angles in the disk as half-planes turn up from the first horizon
-    Real volume_, away_,
-        level_;              ///< the pole as a point of the disk, divided by volume_: level_ is the weight
+    Real turn_sign_;    ///< of angles in the disk as half-planes turn up from the first horizon
+    Real volume_;       ///< by which the next two are divided
+    Real away_, level_; ///< the pole as a homogeneous point of the disk: distance from the centre, weight
     mask_t<Real> is_inside_; ///< whether the pole is in the cone
     Vec2<Real> farthest_;    ///< the point of the rim opposite to the pole
-    Real tangent_cosine_; ///< of the angle between the pole and the points at which planes through it touch
-    Vec2<Real> inner_;    ///< the pole within the disk
+    Vec2<Real> inner_;       ///< the pole in the disk
+    Real tangent_cosine_; ///< of the angle between the pole and the points at which half-planes touch the rim
     Vec3<Real> basis_h_, basis_p_, basis_n_; ///< h, pole and normal in the basis of the cone
     mask_t<Real> is_clipped_, is_lit_;
     Real squeeze_, stretch_;
     Vec2<Real> mid_; ///< the farthest point after the squeeze
     Real mid_length_;
-    mask_t<Real> starts_at_horizon_;
+    mask_t<Real> starts_at_horizon_; ///< else where the first half-plane touches the rim
     Vec2<Real> start_;
-    Real level_cosine_, level_sine_; ///< of half of the arc that the first horizon, or the tangent, cuts off
-    Real horizon_;
-    Real begin_;
+    Real level_cosine_,
+        level_sine_; ///< of half of the arc that the first horizon, or the polar line of the pole, cuts off
+    Real horizon_;   ///< height above the first horizon per height in the disk
+    Real begin_, half_range_;        ///< angles of the map
     Real start_sine_, start_cosine_; ///< of half of begin_
     Real start_scale_, start_squeezed_;
-    Real half_range_;
 
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.volume_, self.away_,
-              self.level_, self.is_inside_, self.farthest_, self.tangent_cosine_, self.inner_, self.basis_h_,
+              self.level_, self.is_inside_, self.farthest_, self.inner_, self.tangent_cosine_, self.basis_h_,
               self.basis_p_, self.basis_n_, self.is_clipped_, self.is_lit_, self.squeeze_, self.stretch_,
               self.mid_, self.mid_length_, self.starts_at_horizon_, self.start_, self.level_cosine_,
-              self.level_sine_, self.horizon_, self.begin_, self.start_sine_, self.start_cosine_,
-              self.start_scale_, self.start_squeezed_, self.half_range_);
+              self.level_sine_, self.horizon_, self.begin_, self.half_range_, self.start_sine_,
+              self.start_cosine_, self.start_scale_, self.start_squeezed_);
     }
 };
 

@@ -1,18 +1,18 @@
 #pragma once
 /// Sampling of the part of an elliptic cone between two horizons, in proportion to the cosine at the first one.
 ///
-/// Derived here. Both horizons meet in a line through the origin, the axis. Half-planes that end at the axis turn from the first
-/// horizon to the second one; each meets the cone between two angles from the pole, one of the two directions of the axis. With the
-/// angle gamma from the pole, the cosine times the solid angle is sin^2(gamma) dgamma times the measure of the sweep, as in
-/// cone_sweep.h, so that gamma follows the inverse cycloid between both angles. The sweep is described by the point R of the rim
-/// that is farther from the pole; the other one is a rational function of it:
+/// Derived here. Both horizons meet in a line through the origin, the axis. Half-planes that end at the axis turn from
+/// the first horizon to the second one; each meets the cone between two angles from the pole, one of the two directions
+/// of the axis. With the angle gamma from the pole, the cosine times the solid angle is sin^2(gamma) dgamma times the
+/// measure of the sweep, as in cone_sweep.h, so that gamma follows the inverse cycloid between both angles. The sweep
+/// is described by the point R of the rim that is farther from the pole; the other one is a rational function of it:
 ///
 ///     measure = (I / sin^3(gamma)) (n . R) (p . R x dR),  I the integral of sin^2 between both angles.
 ///
-/// There are no pieces: the part between both horizons has one arc of the rim of far points, from the first horizon, or the tangent
-/// half-plane if the first horizon misses the cone, to the second one. The density is smooth in it, and does not change if the pole
-/// enters the cone. It vanishes at the first horizon and not at the second one; z = 1 - (1 - w)^2 / 2 gives it the zero in w that
-/// rim_distribution.h expects.
+/// There are no pieces: the part between both horizons has one arc of the rim of far points, from the first horizon, or
+/// the tangent half-plane if the first horizon misses the cone, to the second one. The density is smooth in it, and
+/// does not change if the pole enters the cone. It vanishes at the first horizon and not at the second one; with
+/// z = 1 - (1 - w)^2 / 2 it has the zero in w that rim_distribution.h expects.
 
 #include <nusselt/cones/cone_sweep.h>
 #include <nusselt/cones/lune_map.h>
@@ -46,7 +46,8 @@ struct LunePlaces {
 
 /// \tparam Real float, double, long double or a pack.
 ///
-/// The first horizon is z = 0, the second one a plane through the y-axis. Valid where is_clipped(); else it has any density.
+/// The first horizon is z = 0, the second one a plane through the y-axis. Valid where is_clipped(); else it has any
+/// density.
 /// \tparam Places of the rim, kConePlaces or kFineConePlaces.
 template <class Real, int Places>
 class LuneSweep {
@@ -56,9 +57,8 @@ class LuneSweep {
 public:
     LuneSweep() = default;
 
-    /// \param normal of the second horizon, (x, 0, z), of unit length.
-    NUSSELT_HD explicit LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept
-        : map_(map) {
+    /// \param is_visible whether the cone is that of a light with an extent.
+    NUSSELT_HD LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept : map_(map) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Warp>(map_));
         measure_ = detail::swept_measure(rim_.integral() * map_.scale(),
                                          mask_t<Real>(map_.is_clipped() & is_visible));
@@ -115,7 +115,8 @@ private:
     /// The angle from the near end below which a share of the measure of a half-plane is.
     NUSSELT_HD Real angle_at(const Turn& turn, const Real& share) const noexcept {
         const Real total = whole(turn);
-        // From the pole, the angle is that of the inverse cycloid. For fibres far from the pole its digits do not suffice.
+        // From the pole, the angle is that of the inverse cycloid. For fibres far from the pole its digits do not
+        // suffice.
         const auto far_end = sincos_half_turn(turn.gamma);
         const Real fraction = cycloid_fraction(turn.gamma, far_end.sin, far_end.cos);
         const Real lever = turn.gamma * detail::over_positive(Real(1), turn.across);

@@ -1,10 +1,10 @@
 #pragma once
-/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function. z is the place on a rim, or a function of it
-/// with which densities that do not vanish at an end get a zero there (solid_sweep.h, lune_sweep.h).
+/// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function. z is the place on a rim, or a
+/// function of it with which densities that do not vanish at an end get a zero there (solid_sweep.h, lune_sweep.h).
 ///
-/// 16 places of the density give a polynomial (rim_polynomial.h). Where its last coefficients tell that it is not accurate,
-/// 64 places take over if the caller asks for them; where those do not suffice either, the density is linear between the first 16
-/// places.
+/// 16 places of the density give a polynomial (rim_polynomial.h). Where its last coefficients tell that it is not
+/// accurate, 64 places take over if the caller asks for them; where those do not suffice either, the density is linear
+/// between the first 16 places.
 
 #include <nusselt/cones/rim_polynomial.h>
 #include <nusselt/core/trig.h>
@@ -46,8 +46,8 @@ class RimDistribution {
 public:
     RimDistribution() = default;
 
-    /// \param fill functor: fill.template operator()<Nodes>(value) writes the density at Nodes::node(i) to value[i]. It is not
-    /// negative, not normalised, of order one or less.
+    /// \param fill functor: fill.template operator()<Nodes>(value) writes the density at Nodes::node(i) to value[i]. It
+    ///             is not negative, not normalised, of order one or less.
     template <class Fill>
     NUSSELT_HD explicit RimDistribution(const Fill& fill) noexcept : fine_() {
         fill.template operator()<Coarse>(value_);
@@ -140,7 +140,8 @@ private:
     static constexpr double kAccurate = 1e-5;
     /// Polynomials whose last two coefficients exceed this fraction of the first one may be negative.
     static constexpr double kPositive = 1e-3;
-    /// Steps of Newton's method from one interpolant to the next; twice as many from the linear one to that of 64 places.
+    /// Steps of Newton's method from one interpolant to the next; twice as many from the linear one to that of 64
+    /// places.
     static constexpr int kSteps = kIsSingle<Real> ? 2 : 4;
 
     static constexpr Scalar node(int i) noexcept { return Coarse::node(i); }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_DISTRIBUTION_GLSL
 #define NUSSELT_CONES_RIM_DISTRIBUTION_GLSL
-// Follows include/nusselt/cones/rim_distribution.h @ 1a2494968e13
+// Follows include/nusselt/cones/rim_distribution.h @ 121f96baf6a6
 // Follows include/nusselt/cones/rim_polynomial.h @ 3a20906c39f9
 /// A distribution on [-1, 1] whose density is nearly (1 - z^2) times a smooth function, known at 16 places. Twin of
 /// include/nusselt/cones/rim_distribution.h with 16 places; rim_polynomial.h describes the polynomials.

@@ -1,12 +1,15 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ f0e4275f08e5
+// Follows include/nusselt/cones/rim_map.h @ 69743d2c5d33
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
 #include "../cones/cycloid.glsl"
 #include "../cones/elliptic_cone.glsl"
 #include "../geometry/precise_products.glsl"
+
+/// 1 minus the cosine of an angle in [0, pi), relative to itself.
+float versine_of(float sine, float cosine) { return cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine; }
 
 /// The horizon is z = 0. Cones that it does not cut have is_cut false and any numbers.
 struct RimMap {
@@ -239,10 +242,7 @@ float rim_map_solid_density(const RimMap self, const RimTurn turn) {
 float rim_map_solid_scale(const RimMap self) { return self.narrowing * self.slope * self.half_range; }
 
 /// 1 minus the cosine of the angle of a point of the rim from the pole.
-float rim_point_versine(const RimPoint rim) {
-    float cosine = rim_point_cosine(rim);
-    return cosine > 0.0 ? rim.sine * rim.sine / (1.0 + cosine) : 1.0 - cosine;
-}
+float rim_point_versine(const RimPoint rim) { return versine_of(rim.sine, rim_point_cosine(rim)); }
 
 /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
 float rim_map_place_of(const RimMap self, vec3 wi) {

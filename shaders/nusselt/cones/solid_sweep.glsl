@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_SOLID_SWEEP_GLSL
 #define NUSSELT_CONES_SOLID_SWEEP_GLSL
-// Follows include/nusselt/cones/solid_sweep.h @ ccb1de226280
+// Follows include/nusselt/cones/solid_sweep.h @ fd7b525af416
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, by solid angle. Twin of
 /// include/nusselt/cones/solid_sweep.h, where the method is described.
 
@@ -83,10 +83,9 @@ vec2 solid_sweep_invert(const SolidSweep self, vec3 wi) {
     RimTurn turn = rim_map_turned(self.map, rim_map_place_of(self.map, wi));
     float across = hypotenuse(dot(wi, self.map.h), wi.z);
     float along = dot(wi, self.map.p);
-    float versine = along > 0.0 ? across * across / (1.0 + along) : 1.0 - along;
     float below = rim_distribution_below(self.rim, solid_sweep_squeezed(turn.z));
     return vec2(below_one(over_positive(below, rim_distribution_integral(self.rim))),
-                below_one(over_positive(versine, rim_point_versine(turn.rim))));
+                below_one(over_positive(versine_of(across, along), rim_point_versine(turn.rim))));
 }
 
 #endif

@@ -1,5 +1,5 @@
-/// Tests of clipped linearly transformed cosines for spheres, disks, ellipses and ellipsoids: measures, densities and weights where
-/// the surface's horizon cuts them, and what must not change where it does not.
+/// Tests of clipped linearly transformed cosines for spheres, disks, ellipses and ellipsoids: measures, densities and
+/// weights where the surface's horizon cuts them, and what must not change where it does not.
 
 #include <algorithm>
 #include <array>
@@ -73,8 +73,8 @@ bool is_cut(const Technique& technique, const Unclipped& unclipped) {
     return a.x != b.x || a.y != b.y || a.z != b.z;
 }
 
-/// The integral of a lobe over the part of an ellipse above the surface: Stokes's theorem in cosine space, along the arcs of the rim
-/// and the chords that both horizons leave.
+/// The integral of a lobe over the part of an ellipse above the surface: Stokes's theorem in cosine space, along the
+/// arcs of the rim and the chords that both horizons leave.
 long double lobe_integral_above(const Silhouette& s, const nusselt::Ltc<long double>& ltc) {
     struct Linear { ///< x * cosine + y * sine + w
         long double x, y, w;
@@ -130,8 +130,8 @@ struct Case {
     double spread;  ///< of weights around 1
     double measure; ///< relative error
 };
-// The interpolant is a polynomial but for wide cones, where it is linear between places. Of tiny lights, both horizons leave slivers
-// whose heights are a few thousand roundings of the direction of the light.
+// The interpolant is a polynomial but for wide cones, where it is linear between places. Of tiny lights, both horizons
+// leave slivers whose heights are a few thousand roundings of the direction of the light.
 constexpr Case kCases[] = {
     {"ordinary", Place::ordinary, 0.15, 1e-2},   {"at horizon", Place::at_horizon, 0.15, 1e-2},
     {"tiny", Place::tiny, 1e-3, 2e-4},           {"near", Place::near, 0.3, 2e-2},
@@ -280,8 +280,8 @@ TEST(ConeClippedLtcTest, LightsThatTheSurfaceDoesNotCutHaveTheSamplesOfConeLtc) 
     EXPECT_GE(whole, 10);
 }
 
-/// The largest change of samples and densities of a sphere that rises by small steps until the y-axis, the line of both horizons,
-/// leaves it at a height of 0.958.
+/// The largest change of samples and densities of a sphere that rises by small steps until the y-axis, the line of both
+/// horizons, leaves it at a height of 0.958.
 /// \param slant of its way.
 double largest_change(double slant) {
     const auto ltc = lobe_of<double>(tilted_lobe(0.7L, 0.5L, 0.9L, 0.1L));
