@@ -70,7 +70,7 @@ else
     cp -r shaders/nusselt "$root/share/nusselt/shaders"
     # The kit has no other pages to link to.
     sed -E 's/\[([^]]+)\]\([a-z-]+\.md[^)]*\)/\1/g' docs/gpu-kit.md >"$root/README.md"
-    cp scripts/archive/run.sh "$root/run.sh"
+    cp scripts/archive/{each-scene,run}.sh "$root"
 fi
 cp -r scenes "$root/share/nusselt/scenes"
 cp LICENSE "$root/share/doc/nusselt/LICENSE"

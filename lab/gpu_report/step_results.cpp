@@ -16,12 +16,44 @@ std::ifstream open(const std::filesystem::path& file) {
     return stream;
 }
 
+/// Appends the rows of tables with the same names; the rest comes from the first that has settings.
+void append(const Json& more, Json& all) {
+    for (const auto& [key, value] : more.items())
+        if (key != "tables" && (!all.contains(key) || all.at(key).empty())) all[key] = value;
+    for (const Json& table : more.at("tables")) {
+        Json& tables = all.at("tables");
+        const auto same = std::find_if(tables.begin(), tables.end(),
+                                       [&](const Json& one) { return one.at("name") == table.at("name"); });
+        if (same == tables.end())
+            tables.push_back(table);
+        else
+            same->at("rows").insert(same->at("rows").end(), table.at("rows").begin(), table.at("rows").end());
+    }
+}
+
 std::optional<Json> read_json(const std::filesystem::path& file) {
     std::ifstream stream(file);
     Json json = Json::parse(stream, nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("settings") || !json.contains("tables"))
         return std::nullopt;
     return json;
+}
+
+/// The results of a step: of one process, or of one for each scene in a folder with the name of the step.
+std::optional<Json> read_results(const std::filesystem::path& folder, const std::string& step) {
+    if (!std::filesystem::is_directory(folder / step)) return read_json(folder / (step + ".json"));
+    std::set<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / step)) files.insert(entry.path());
+    std::optional<Json> all;
+    for (const std::filesystem::path& file : files) {
+        std::optional<Json> one = read_json(file);
+        if (!one) continue;
+        if (all)
+            append(*one, *all);
+        else
+            all = std::move(one);
+    }
+    return all;
 }
 
 } // namespace
@@ -49,7 +81,7 @@ GpuSteps read_steps(const std::filesystem::path& folder) {
             outcomes.count(step.outcome) == 0)
             throw std::runtime_error("'" + list.string() + "': wrong line '" + line +
                                      "'; write STEP OUTCOME SECONDS LOG");
-        if (auto json = read_json(folder / (step.name + ".json")))
+        if (auto json = read_results(folder, step.name))
             all.results.emplace(step.name, std::move(*json));
         else if (step.outcome == "passed")
             step.outcome = "failed";

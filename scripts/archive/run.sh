@@ -20,7 +20,9 @@ usage() {
 # The default is made for eight minutes on a GPU.
 lights=300000 resolution=1920x1080 frames=9 warm_up=2 repetitions=15 limit=1800
 mode=full out=
-compared= measured= # scenes; all if empty
+all=$(for scene in "$scenes"/*.pbrt; do basename "$scene" .pbrt; done)
+[ -z "${NUSSELT_SCENES:-}" ] || all="$all bathroom"
+compared=$all measured=$all # scenes
 while [ $# -gt 0 ]; do
     case $1 in
         --quick)
@@ -29,7 +31,10 @@ while [ $# -gt 0 ]; do
             mode=quick lights=20000 resolution=160x90 frames=1 warm_up=1 repetitions=1
             compared='bollards cornell-panel cornell-tube planes room soup' measured='bollards cornell-tube planes room'
             ;;
-        --smoke) mode=smoke lights=10000 resolution=48x27 frames=1 warm_up=0 repetitions=1 ;;
+        --smoke)
+            mode=smoke lights=10000 resolution=48x27 frames=1 warm_up=0 repetitions=1
+            compared=planes measured=planes
+            ;;
         --device)
             [ $# -ge 2 ] || usage
             export NUSSELT_DEVICE="$2"
@@ -92,28 +97,26 @@ step() {
     case $outcome in failed | late) tail -n 3 "$out/$name.log" | sed 's/^/           /' ;; esac
 }
 
-# with_scenes NAMES COMMAND...: adds the files of these shipped scenes to a command; none leaves the choice to it.
-with_scenes() {
-    names=$1
-    shift
-    for scene in $names; do set -- "$@" "$scenes/$scene.pbrt"; done
-    "$@"
+# step_of_scenes NAME SCENES COMMAND...: a step with a process for each of these shipped scenes. Results: OUT/NAME/SCENE.json
+step_of_scenes() {
+    step_name=$1 step_scenes=$2
+    shift 2
+    step "$step_name" "$kit/each-scene.sh" "$out/$step_name" "$step_scenes" "$@"
 }
 
 step device "$lab" gpu device --json "$out/device.json"
 case $outcome in passed | stopped) ;; *) ended=1 ;; esac
 if [ "$mode" = smoke ]; then
     step parity "$lab" gpu parity --lights "$lights" --only "technique, LineArea" --json "$out/parity.json"
-    step agreement "$lab" gpu agreement "$scenes/planes.pbrt" --resolution "$resolution" --json "$out/agreement.json"
+    step_of_scenes agreement "$compared" "$lab" gpu agreement --resolution "$resolution"
     step samplers "$lab" bench gpu-samplers --repetitions "$repetitions" --json "$out/samplers.json"
-    step frames "$lab" bench gpu "$scenes/planes.pbrt" --resolution "$resolution" --frames "$frames" --warm-up "$warm_up" \
-        --techniques projected_solid_angle --json "$out/frames.json"
+    step_of_scenes frames "$measured" "$lab" bench gpu --resolution "$resolution" --frames "$frames" --warm-up "$warm_up" \
+        --techniques projected_solid_angle
 else
     step parity "$lab" gpu parity --lights "$lights" --json "$out/parity.json"
-    with_scenes "$compared" step agreement "$lab" gpu agreement --scenes "$scenes" --json "$out/agreement.json"
+    step_of_scenes agreement "$compared" "$lab" gpu agreement
     step samplers "$lab" bench gpu-samplers --repetitions "$repetitions" --json "$out/samplers.json"
-    with_scenes "$measured" step frames "$lab" bench gpu --scenes "$scenes" --resolution "$resolution" --frames "$frames" \
-        --warm-up "$warm_up" --json "$out/frames.json"
+    step_of_scenes frames "$measured" "$lab" bench gpu --resolution "$resolution" --frames "$frames" --warm-up "$warm_up"
 fi
 
 trap '' INT TERM HUP

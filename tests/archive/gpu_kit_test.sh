@@ -54,6 +54,20 @@ done
 commit=$(sed -n 's/^commit: //p' "$kit/MANIFEST")
 grep -qF "$commit" smoke/report.json || fail "no commit"
 
+# A process that crashes at one scene: the others are there all the same, and the failure has the name of the scene.
+cat >crash.sh <<'END'
+#!/bin/sh
+case $1 in
+    */planes.pbrt) kill -SEGV $$ ;;
+    *) echo '{"settings": {}, "tables": []}' >"$3" ;;
+esac
+END
+chmod +x crash.sh
+"$kit/each-scene.sh" crashed 'cornell-tube planes room' ./crash.sh 2>crashed.txt
+[ $? -eq 1 ] && grep -q '^each-scene: planes: the program ended with code 139' crashed.txt || fail "$(cat crashed.txt)"
+[ -s crashed/cornell-tube.json ] && [ -s crashed/room.json ] || fail "scenes after or before a crash are lost"
+grep -q '"rows": \[\["planes", "the program ended with code 139' crashed/planes.json || fail "$(cat crashed/planes.json)"
+
 # A step that fails: the others run all the same.
 mv "$kit/share/nusselt/scenes/planes.pbrt" "$kit/planes"
 "$kit/run.sh" --smoke partly >partly.txt 2>&1

@@ -100,6 +100,26 @@ TEST_F(GpuReportTest, TakesAStepWithoutResultsOrWithoutALineAsAFailure) {
     expect(report(), "# unknown");
 }
 
+TEST_F(GpuReportTest, HasTheScenesOfStepsWithAProcessForEach) {
+    write_all("device passed 1 device.log\nparity passed 2 parity.log\nagreement passed 3 agreement.log\n"
+              "samplers passed 4 samplers.log\nframes failed 5 frames.log\n");
+    std::filesystem::create_directory(folder_ / "frames");
+    const std::string tables = R"("tables": [{"name": "failures", "columns":
+[{"name": "scene"}, {"name": "message"}], "rows": [[)";
+    write("frames/a.json", R"({"settings": {}, )" + tables + R"("a", "crashed"]]}]})");
+    write("frames/b.json", R"({"settings": {"frames": 9}, )" + tables +
+                               R"("b", "no memory"]]}, {"name": "frames", "columns": [], "rows": []}]})");
+    write("frames/c.json", "{"); // the process ended while it wrote
+    const GpuReport all = report();
+    EXPECT_FALSE(all.passes);
+    expect(all, "| frames | a | crashed |");
+    expect(all, "| frames | b | no memory |");
+    const auto frames = nlohmann::json::parse(all.json).at("results").at("frames");
+    EXPECT_EQ(frames.at("settings").at("frames"), 9);
+    EXPECT_EQ(frames.at("tables").size(), 2u);
+    EXPECT_EQ(frames.at("tables").at(0).at("rows").size(), 2u);
+}
+
 TEST_F(GpuReportTest, RejectsWhatIsNoListOfSteps) {
     EXPECT_THROW(report(), std::runtime_error) << "no file";
     for (const char* line : {"device", "device fine 1 a.log", "device passed soon a.log"}) {
