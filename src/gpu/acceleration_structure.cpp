@@ -116,13 +116,13 @@ AccelerationStructure::Levels AccelerationStructure::build_bottom(const Device& 
     return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel, inputs);
 }
 
-std::optional<AccelerationStructure::Levels> AccelerationStructure::build_boxes(
-    const Device& device, std::span<const std::array<float, 6>> boxes) {
+std::optional<AccelerationStructure::Levels>
+AccelerationStructure::build_boxes(const Device& device, std::span<const std::array<float, 6>> boxes) {
     static_assert(sizeof(boxes[0]) == sizeof(vk::AabbPositionsKHR));
     if (boxes.empty()) return {};
     const Buffer buffer = make_input(device, boxes);
-    const vk::AccelerationStructureGeometryAabbsDataKHR data(vk::DeviceOrHostAddressConstKHR(buffer.address()),
-                                                             sizeof(boxes[0]));
+    const vk::AccelerationStructureGeometryAabbsDataKHR data(
+        vk::DeviceOrHostAddressConstKHR(buffer.address()), sizeof(boxes[0]));
     return build(device, vk::AccelerationStructureTypeKHR::eBottomLevel,
                  {{{vk::AccelerationStructureGeometryKHR(vk::GeometryTypeKHR::eAabbs, data)},
                    {static_cast<std::uint32_t>(boxes.size())},

@@ -51,7 +51,8 @@ private:
                         const std::vector<Input>& inputs);
     static Levels build_bottom(const Device& device, std::span<const float> positions,
                                std::span<const RayTriangles> triangles);
-    static std::optional<Levels> build_boxes(const Device& device, std::span<const std::array<float, 6>> boxes);
+    static std::optional<Levels> build_boxes(const Device& device,
+                                             std::span<const std::array<float, 6>> boxes);
     Levels build_top(const Device& device, std::span<const RayTriangles> triangles,
                      std::span<const RayInstance> instances) const;
 

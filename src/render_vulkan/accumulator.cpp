@@ -33,8 +33,9 @@ gpu::RasterPass make_visibility_pass(const DeviceScene& scene, const PixelBuffer
     const SceneBuffers& data = scene.buffers();
     const SceneTextures& textures = scene.textures();
     static_assert(interface::kRoundLightsBinding == interface::kFirstLightBinding);
-    const std::array buffers = {&data.scene,     &data.vertices,      &data.triangles,    &data.instances,
-                                &data.materials, &textures.records(), &textures.words(), &data.lights.front()};
+    const std::array buffers = {&data.scene,       &data.vertices,      &data.triangles,
+                                &data.instances,   &data.materials,     &textures.records(),
+                                &textures.words(), &data.lights.front()};
     const bool has_images = textures.images() != nullptr;
     gpu::RasterPass pass(scene.device(), shaders::kVisibilityVertex,
                          has_images ? std::span<const std::uint32_t>(shaders::kVisibilityFragmentImages)

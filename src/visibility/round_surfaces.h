@@ -1,5 +1,5 @@
 #pragma once
-/// Round lights as rays meet them: by the equation of the exact shape. Their triangles are for GPUs and for lines of other lights.
+/// Round lights as rays meet them: by the equation of the exact shape. Their triangles are for line samples of other lights.
 
 #include "scene/model/scene.h"
 #include "scene/model/vector_math.h"

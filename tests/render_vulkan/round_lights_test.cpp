@@ -8,6 +8,7 @@
 
 #include "scene/model/lights/round/round_form.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace nusselt::render_vulkan_test {
@@ -106,6 +107,68 @@ TEST_F(RoundLightsOnGpu, AgreeWithTheCpu) {
         // At outlines, too: cameras and shadow rays of both meet the exact shapes.
         EXPECT_LT(differing_share(result.image, reference), kLargestDifferingShare);
         EXPECT_EQ(result.statistics.rejected_samples, 0u);
+    }
+}
+
+/// A round light that fills the image, of a material with all that follows texture coordinates, in the light of another one.
+scene::Scene make_textured_scene(const RoundLight& shape) {
+    scene::Scene scene = make_dark_scene();
+    scene.triangles.clear();
+    scene.triangle_material.clear();
+    scene.triangle_light.clear();
+    scene::Texture texture{.name = "noise", .width = 16, .height = 12};
+    std::uint32_t state = 1;
+    for (int i = 0; i < 3 * texture.width * texture.height; ++i) {
+        state = state * 747796405u + 2891336453u;
+        texture.texels.push_back(static_cast<float>(state >> 8) * 0x1p-24f);
+    }
+    const int number = static_cast<int>(scene.textures.size());
+    scene.textures.push_back(texture);
+    scene.materials.resize(1);
+    scene.materials[0] = {.name = "all",
+                          .diffuse = {0.9f, 0.9f, 0.9f},
+                          .diffuse_texture = {number},
+                          .alpha_texture = {number, {1, 3}, {0, 0.3f}},
+                          .bump = 0.02f,
+                          .bump_texture = {number, {2, 1}, {0.1f, 0}},
+                          .bump_unit = scene::BumpUnit::texture_coordinate};
+    add_round_light(scene, shape);
+    add_round_light(scene, {.model = RoundModel::ellipse,
+                            .center = {0, 0, 9},
+                            .u = {0, 4, 0},
+                            .v = {4, 0, 0},
+                            .w = {0, 0, 0},
+                            .radiance = {2, 2, 2}});
+    render_test::set_camera(scene, {0.3f, -2, 4}, {0, 0, 0}, {0, 0, 1}, 0.25, kWidth, kHeight);
+    render_test::set_radius(scene);
+    return scene;
+}
+
+TEST_F(RoundLightsOnGpu, HaveTexturesBumpsAndAlphaOfTheCpu) {
+    const auto settings = settings_of(Technique::ltc_analytic, Strategies::diffuse);
+    for (const RoundLight& light :
+         {RoundLight{
+              .u = {1, 0, 0.2f}, .v = {0, 1, 0}, .w = {-0.3f, 0.1f, 0.8f}, .radiance = {0.1f, 0.1f, 0.1f}},
+          RoundLight{.model = RoundModel::ellipse,
+          .u = {0.9f, 0, 0.2f},
+          .v = {0.1f, 1, 0},
+          .w = {0, 0, 0},
+          .radiance = {0.1f, 0.1f, 0.1f}}}) {
+        scene::Scene scene = make_textured_scene(light);
+        const image::Image reference = render_on_cpu(scene, settings);
+        const auto on_gpu = [&] {
+            VulkanRenderer renderer(device(), scene, render_vulkan::ShadowRays::none);
+            return renderer.render(settings).image;
+        };
+        EXPECT_LT(differing_share(on_gpu(), reference), kLargestDifferingShare);
+        // The test of the test: each of them shows.
+        for (scene::TextureUse scene::Material::*use :
+             {&scene::Material::diffuse_texture, &scene::Material::bump_texture,
+              &scene::Material::alpha_texture}) {
+            scene.materials[0].*use = {};
+            EXPECT_GT(differing_share(render_on_cpu(scene, settings), reference), 3 * kLargestDifferingShare);
+            scene = make_textured_scene(light);
+        }
     }
 }
 

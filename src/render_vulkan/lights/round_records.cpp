@@ -46,7 +46,8 @@ std::vector<interface::RoundLightRecord> make_round_records(const scene::Scene& 
         record.triangle = interface::kNoTriangle;
     }
     for (const visibility::RoundSurface& surface : visibility::make_round_surfaces(scene)) {
-        interface::RoundLightRecord& record = lights.at(surface.light - scene.lights.of<scene::PolygonLight>().size());
+        interface::RoundLightRecord& record =
+            lights.at(surface.light - scene.lights.of<scene::PolygonLight>().size());
         float* const rows[] = {record.inverse0, record.inverse1, record.inverse2};
         for (std::size_t i = 0; i < surface.inverse.size(); ++i)
             rows[i / 3][i % 3] = static_cast<float>(surface.inverse[i]);
@@ -61,7 +62,8 @@ std::vector<interface::RoundLightRecord> make_round_records(const scene::Scene& 
 void write_rounds(const scene::Scene& scene, const scene::LightList& list, LightRecords& records) {
     const auto& rounds = dynamic_cast<const scene::LightsOf<scene::RoundLight>&>(list);
     for (const scene::RoundLight& light : rounds.lights) records.has_shape_of(constant_of(light)) = true;
-    records.array_at(interface::kRoundLightsBinding) = make_light_array("spheres and disks", make_round_records(scene));
+    records.array_at(interface::kRoundLightsBinding) =
+        make_light_array("spheres and disks", make_round_records(scene));
 }
 
 } // namespace nusselt::render_vulkan

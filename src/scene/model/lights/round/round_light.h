@@ -15,8 +15,8 @@ enum class RoundModel : std::uint32_t {
 };
 
 /// The points center + x u + y v + z w with x^2 + y^2 + z^2 <= 1. The semi-diameters are conjugate: any linear image of a sphere
-/// or a disk. Renderers give it the light of this shape. On the CPU, cameras and shadow rays meet the shape itself. On GPUs, they meet
-/// its surface(), the corners of which lie on the shape, and the rest inside; so do line samples of other lights.
+/// or a disk. Renderers give it the light of this shape, and cameras and shadow rays meet the shape itself. Line samples of other
+/// lights meet its surface(), the corners of which lie on the shape, and the rest inside.
 struct RoundLight {
     std::uint32_t emitter = 0; ///< index into Scene::emitters
     RoundModel model = RoundModel::ellipsoid;
