@@ -38,7 +38,19 @@ struct ExactWay {
     Vec3<proof::Exact> to_point;  ///< unit direction to the point at EmissionOutputs::at
     Vec3<proof::Exact> direction; ///< EmissionOutputs::way with the unit 1
     proof::Exact hit_error;       ///< error of the point that was hit
+    /// Whether to_point is the direction with length one, and densities at EmissionOutputs::at are those of this direction.
+    bool is_direction = false;
 };
+
+/// What does not depend on the sample. Exact results take most of the time, so they are computed once for all methods.
+struct ExactTotals {
+    proof::Exact measure, unshadowed; ///< as in EmissionOutputs
+};
+
+template <class Technique>
+ExactTotals totals_of(const Technique& exact) {
+    return {exact.measure(), exact.unshadowed().y};
+}
 
 /// The words of a lobe for shaders.
 inline void append_lobe(const LtcCoefficients<float>& c, std::vector<float>& inputs) {
@@ -78,21 +90,22 @@ inline bool is_valid(const EmissionOutputs& out) {
 }
 
 /// Judges the results of one method.
+/// \param totals of the exact technique
 /// \param way_of function of the results that gives an ExactWay
 template <class Technique, class WayOf>
-void judge_outputs(const Technique& exact, const Vec2<float>& u, const EmissionOutputs& out,
-                   const WayOf& way_of, Errors& errors) {
+void judge_outputs(const Technique& exact, const ExactTotals& totals, const Vec2<float>& u,
+                   const EmissionOutputs& out, const WayOf& way_of, Errors& errors) {
     using proof::Exact;
     if (!is_valid(out)) {
         ++errors.invalid;
         return;
     }
-    if (exact.measure() == 0) {
+    if (totals.measure == 0) {
         errors.spurious += out.pdf > 0 || out.measure > 0;
         return;
     }
-    errors.add(Quantity::measure, std::fabs(out.measure / exact.measure() - 1));
-    errors.add(Quantity::measure, std::fabs(out.unshadowed / exact.unshadowed().y - 1));
+    errors.add(Quantity::measure, std::fabs(out.measure / totals.measure - 1));
+    errors.add(Quantity::measure, std::fabs(out.unshadowed / totals.unshadowed - 1));
     if (out.pdf == 0) {
         ++errors.no_sample;
         return;
@@ -102,13 +115,15 @@ void judge_outputs(const Technique& exact, const Vec2<float>& u, const EmissionO
     errors.add(Quantity::unit_length, std::fabs(length(way.direction) - 1));
     errors.add(Quantity::aim, length(cross(wi, way.to_point)));
     errors.add(Quantity::hit_point, way.hit_error);
+    const Exact density = exact.pdf(wi);
+    const Vec2<Exact> inverse = exact.invert(wi);
     // The coordinates of a sample tell its texel. Those of its rounded direction may lie in another one.
-    const Vec2<Exact> explained = exact.invert(way.to_point);
+    const Vec2<Exact> explained = way.is_direction ? inverse : exact.invert(way.to_point);
+    const Exact density_at = way.is_direction ? density : exact.pdf_at(broadcast<Exact>(out.at));
     errors.add(Quantity::first_random, std::fabs(explained.x - u.x));
     errors.add(Quantity::second_random, std::fabs(explained.y - u.y));
-    errors.add(Quantity::sample_density, std::fabs(out.pdf / exact.pdf_at(broadcast<Exact>(out.at)) - 1));
-    errors.add(Quantity::density, std::fabs(out.pdf_of_wi / exact.pdf(wi) - 1));
-    const Vec2<Exact> inverse = exact.invert(wi);
+    errors.add(Quantity::sample_density, std::fabs(out.pdf / density_at - 1));
+    errors.add(Quantity::density, std::fabs(out.pdf_of_wi / density - 1));
     errors.add(Quantity::first_inverse, std::fabs(out.inverse.x - inverse.x));
     errors.add(Quantity::second_inverse, std::fabs(out.inverse.y - inverse.y));
 }

@@ -140,6 +140,7 @@ void judge_scene(const Class& of, const TestMap& map, const Scene& scene,
     }
     const auto frame = orthonormal(scene.frame);
     const auto exact = Pair::prepare(map.exact(), frame, scene.lobe);
+    const ExactTotals totals = totals_of(exact);
     const auto way_of = [&](const EmissionOutputs& out) -> ExactWay {
         const Vec2<Exact> at = broadcast<Exact>(out.at);
         return {frame.to_local(octahedral_direction(at)),
@@ -147,12 +148,12 @@ void judge_scene(const Class& of, const TestMap& map, const Scene& scene,
                 std::fabs(out.place / map.exact().radiance.lookup(at).y - 1)};
     };
     const auto judge_one = [&](const EmissionOutputs& out, Errors& to) {
-        judge_outputs(exact, scene.u, out, way_of, to);
+        judge_outputs(exact, totals, scene.u, out, way_of, to);
     };
     for (std::size_t k = 0; k < device_outputs.size(); ++k) judge_one(device_outputs[k], errors.device[k]);
     const auto single = Pair::prepare(map.in_float(), scene.frame, scene.lobe);
     judge_one(sample_in_cpp(single, map.in_float(), scene.u), errors.cpp);
-    if (exact.measure() > 0) judge_one(sample_in_cpp(exact, map.exact(), scene.u), errors.floor);
+    if (totals.measure > 0) judge_one(sample_in_cpp(exact, map.exact(), scene.u), errors.floor);
 }
 
 template <class Pair>

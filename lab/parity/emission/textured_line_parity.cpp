@@ -252,8 +252,6 @@ public:
     class Judging {
     public:
         Judging(const TubeJudged& judged, const Vec3<Real>& wi) : judged_(&judged), wi_(wi) {}
-        Real measure() const { return judged_->measure(); }
-        Vec3<Real> unshadowed() const { return judged_->unshadowed(); }
         Real pdf(const Vec3<Real>& wi) const { return judged_->pdf(wi); }
         Real pdf_at(const Vec2<Real>& /*at*/) const { return judged_->pdf(wi_); }
         Vec2<Real> invert(const Vec3<Real>& wi) const { return judged_->invert(wi); }
@@ -266,7 +264,7 @@ public:
     ExactWay way_of(const EmissionOutputs& out) const {
         const auto direction = broadcast<Real>(out.way);
         const auto wi = normalize(direction);
-        return {wi, direction, std::fabs(share(intersect(light_, wi).distance * wi) - out.place)};
+        return {wi, direction, std::fabs(share(intersect(light_, wi).distance * wi) - out.place), true};
     }
 
 private:
@@ -359,16 +357,17 @@ void judge_scene(const Class& of, const TestProfiles& profiles, const Scene& sce
         return;
     }
     const auto exact = Pair::prepare(scene, exact_light(scene.light), profiles.exact(of.look));
-    if (exact.measure() > 0 && exact.measure() < kSmallestMeasure) return;
+    const ExactTotals totals = totals_of(exact);
+    if (totals.measure > 0 && totals.measure < kSmallestMeasure) return;
     const Vec2<float> u{scene.u.x, Pair::kIsTube ? scene.u.y : 0.0f};
     const auto judge = [&](const EmissionOutputs& out, Errors& to) {
         judge_outputs(
-            exact.judging(out), u, out, [&](const auto& o) { return exact.way_of(o); }, to);
+            exact.judging(out), totals, u, out, [&](const auto& o) { return exact.way_of(o); }, to);
     };
     for (std::size_t k = 0; k < device_outputs.size(); ++k) judge(device_outputs[k], errors.device[k]);
     const auto single = Pair::prepare(scene, scene.light, profiles.in_float(of.look));
     judge(sample_in_cpp<float>(single, u), errors.cpp);
-    if (exact.measure() > 0) judge(sample_in_cpp<Exact>(exact, u), errors.floor);
+    if (totals.measure > 0) judge(sample_in_cpp<Exact>(exact, u), errors.floor);
 }
 
 template <class Pair>

@@ -178,16 +178,17 @@ void judge_scene(const Class& of, const Scene& scene, const std::vector<Emission
         make_texture_plane(broadcast<Exact>(scene.plane.corner), broadcast<Exact>(scene.plane.side_x),
                            broadcast<Exact>(scene.plane.side_y));
     const auto exact = Pair::prepare(plane, scene.light->exact(), scene.lobe);
-    if (exact.measure() > 0 && exact.measure() < kSmallestWeight) return;
+    const ExactTotals totals = totals_of(exact);
+    if (totals.measure > 0 && totals.measure < kSmallestWeight) return;
     const auto way_of = [&](const EmissionOutputs& out) -> ExactWay {
         return {normalize(plane.point_at(broadcast<Exact>(out.at))), broadcast<Exact>(out.way),
                 out.place / std::max(length(plane.side_x), length(plane.side_y))};
     };
     for (std::size_t k = 0; k < device_outputs.size(); ++k)
-        judge_outputs(exact, scene.u, device_outputs[k], way_of, errors.device[k]);
-    judge_outputs(exact, scene.u, of_cpp, way_of, errors.cpp);
-    if (exact.measure() > 0)
-        judge_outputs(exact, scene.u, sample_in_cpp(exact, plane, scene.u), way_of, errors.floor);
+        judge_outputs(exact, totals, scene.u, device_outputs[k], way_of, errors.device[k]);
+    judge_outputs(exact, totals, scene.u, of_cpp, way_of, errors.cpp);
+    if (totals.measure > 0)
+        judge_outputs(exact, totals, scene.u, sample_in_cpp(exact, plane, scene.u), way_of, errors.floor);
 }
 
 template <class Pair>

@@ -160,14 +160,12 @@ public:
                 const WindowPlane<Exact>& plane, const Vec3<Exact>& wi)
         : technique_(&technique), table_(&light.table), frame_(&plane.frame), wi_(wi) {}
 
-    Exact measure() const { return technique_->measure(); }
-    Vec3<Exact> unshadowed() const { return technique_->unshadowed(); }
     Vec2<Exact> invert(const Vec3<Exact>& wi) const { return technique_->invert(wi); }
     /// Where there is none, any density is wrong.
     Exact pdf(const Vec3<Exact>& wi) const { return std::max(technique_->pdf(wi), Exact(1e-300L)); }
     Exact pdf_at(const Vec2<Exact>& at) const { return pdf(in_texel(at)); }
 
-    /// The direction next to that of the result in the texel at a position of the table.
+    /// The direction next to that of the result in the texel at a position of the table: nearly always the same one.
     Vec3<Exact> in_texel(const Vec2<Exact>& at) const {
         const Vec3<Exact> local = frame_->to_local(wi_);
         const auto clamped = [](Exact slope, Exact position, int count, Exact low, Exact step) {
@@ -176,10 +174,12 @@ public:
             const Exact inside = std::clamp(place, texel + 1e-6L, texel + 1 - 1e-6L);
             return inside == place ? slope : std::tan(low + inside * step);
         };
-        return normalize(frame_->to_world(
-            {clamped(local.x / local.z, at.x, table_->width, table_->angle_low.x, table_->texel_size.x),
-             clamped(local.y / local.z, at.y, table_->height, table_->angle_low.y, table_->texel_size.y),
-             1}));
+        const Vec2<Exact> slope{local.x / local.z, local.y / local.z};
+        const Vec2<Exact> inside{
+            clamped(slope.x, at.x, table_->width, table_->angle_low.x, table_->texel_size.x),
+            clamped(slope.y, at.y, table_->height, table_->angle_low.y, table_->texel_size.y)};
+        if (inside.x == slope.x && inside.y == slope.y) return wi_;
+        return normalize(frame_->to_world({inside.x, inside.y, 1}));
     }
     /// The direction at a position of the table.
     Vec3<Exact> direction_at(const Vec2<Exact>& at) const {
@@ -230,25 +230,28 @@ void judge_scene(const Class& of, const Scene& scene, const std::vector<Emission
     const auto light = scene.light->exact();
     const auto plane = to_shading_space(light.plane, broadcast<Exact>(scene.point), orthonormal(scene.frame));
     const auto exact = Pair::prepare(plane, light, scene.lobe);
-    if (exact.measure() > 0 && exact.measure() < kSmallestWeight * light.table.mean) return;
+    const ExactTotals totals = totals_of(exact);
+    if (totals.measure > 0 && totals.measure < kSmallestWeight * light.table.mean) return;
     const auto judge_one = [&](const EmissionOutputs& out, Errors& to) {
         const auto wi = normalize(broadcast<Exact>(out.way));
         const auto at = broadcast<Exact>(out.at);
         const ExactWindow window(exact, light, plane, wi);
         judge_outputs(
-            window, scene.u, out,
+            window, totals, scene.u, out,
             [&](const EmissionOutputs&) -> ExactWay {
-                return {window.in_texel(at), broadcast<Exact>(out.way), out.place};
+                const auto to_point = window.in_texel(at);
+                return {to_point, broadcast<Exact>(out.way), out.place,
+                        to_point.x == wi.x && to_point.y == wi.y && to_point.z == wi.z};
             },
             to);
-        if (is_valid(out) && exact.measure() > 0 && out.pdf > 0)
+        if (is_valid(out) && totals.measure > 0 && out.pdf > 0)
             to.add(Quantity::aim, length(cross(wi, window.direction_at(at))));
     };
     for (std::size_t k = 0; k < device_outputs.size(); ++k) judge_one(device_outputs[k], errors.device[k]);
     const auto in_float = to_shading_space(scene.light->in_float.plane, scene.point, scene.frame);
     const auto single = Pair::prepare(in_float, scene.light->in_float, scene.lobe);
     judge_one(sample_in_cpp(single, in_float, scene.u), errors.cpp);
-    if (exact.measure() > 0) judge_one(sample_in_cpp(exact, plane, scene.u), errors.floor);
+    if (totals.measure > 0) judge_one(sample_in_cpp(exact, plane, scene.u), errors.floor);
 }
 
 template <class Pair>
