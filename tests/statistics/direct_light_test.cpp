@@ -47,25 +47,21 @@ double p_value(const std::vector<double>& means, double truth) {
 template <class Strategies, class Light>
 using Estimator = DirectLight<double, Light, nusselt::Frostbite<double>, Strategies>;
 
-/// p-values, one for each combination of light and surface.
+/// p-value of one combination of light and surface.
 template <class Strategies, class Light, class Heuristic>
-std::vector<double> p_values_of(const std::vector<ReflectedLight<Light>>& list, const Heuristic& heuristic,
-                                Counts counts = {1, 1}) {
-    std::vector<double> p_values;
-    for (const auto& reflected : list) {
-        const Estimator<Strategies, Light> estimator(reflected.light, reflected.surface, counts.diffuse,
-                                                     counts.specular);
-        const auto means = means_of([&](const auto& next) {
-            double sum = 0;
-            for (int i = 0; i < counts.diffuse; ++i)
-                sum += share(estimator.sample_diffuse(heuristic, next()), reflected.visibility);
-            for (int i = 0; i < counts.specular; ++i)
-                sum += share(estimator.sample_specular(heuristic, next()), reflected.visibility);
-            return sum;
-        });
-        p_values.push_back(p_value(means, reflected.truth));
-    }
-    return p_values;
+double p_value_of(const ReflectedLight<Light>& reflected, const Heuristic& heuristic,
+                  Counts counts = {1, 1}) {
+    const Estimator<Strategies, Light> estimator(reflected.light, reflected.surface, counts.diffuse,
+                                                 counts.specular);
+    const auto means = means_of([&](const auto& next) {
+        double sum = 0;
+        for (int i = 0; i < counts.diffuse; ++i)
+            sum += share(estimator.sample_diffuse(heuristic, next()), reflected.visibility);
+        for (int i = 0; i < counts.specular; ++i)
+            sum += share(estimator.sample_specular(heuristic, next()), reflected.visibility);
+        return sum;
+    });
+    return p_value(means, reflected.truth);
 }
 
 /// Passes if the p-values do not reject the hypothesis that estimates are unbiased.
@@ -81,7 +77,10 @@ testing::AssertionResult unbiased(const std::vector<double>& p_values,
 template <class Strategies, class Light, class Heuristic>
 testing::AssertionResult unbiased_with(const Heuristic& heuristic,
                                        const std::vector<ReflectedLight<Light>>& list, Counts counts) {
-    return unbiased(p_values_of<Strategies>(list, heuristic, counts), list);
+    std::vector<double> p_values;
+    for (const auto& reflected : list)
+        p_values.push_back(p_value_of<Strategies>(reflected, heuristic, counts));
+    return unbiased(p_values, list);
 }
 
 template <class Strategies, class Light>
@@ -176,7 +175,8 @@ template <class Light>
 void expect_mutants_rejected(const std::vector<ReflectedLight<Light>>& list) {
     using Pair = nusselt::ProjectedSolidAngleAndLtc;
     const auto rejected = [&](const auto& mutant, Counts counts) {
-        return reject(p_values_of<Pair>(list, mutant, counts));
+        return reject(list,
+                      [&](const auto& reflected) { return p_value_of<Pair>(reflected, mutant, counts); });
     };
     EXPECT_TRUE(rejected(SpecularTechniqueAlone(), {1, 1}));
     EXPECT_TRUE(rejected(Mutant{WeightedBalanceHeuristic(),
@@ -199,7 +199,8 @@ TEST(DirectLightMutants, OfPolygonsAreRejected) {
     const auto black_without_density = [](auto&, auto& s) {
         if (sum_of_channels(nusselt::detail::sum_of(s.component)) == 0) s.pdf[0] = 0;
     };
-    EXPECT_TRUE(reject(p_values_of<Pair>(list, Mutant{Optimal{0.5}, black_without_density})))
+    const Mutant mutant{Optimal{0.5}, black_without_density};
+    EXPECT_TRUE(reject(list, [&](const auto& reflected) { return p_value_of<Pair>(reflected, mutant); }))
         << "samples below the surface taken to be impossible";
 }
 

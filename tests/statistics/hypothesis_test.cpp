@@ -65,6 +65,15 @@ TEST(HypothesisTest, CorrectsForTheNumberOfTests) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(reject({kNaN, 0.5}) && reject({0.5, kNaN})) << "an infinite estimate is accepted";
     EXPECT_TRUE(reject({})) << "a test without samples is accepted";
+    int tests = 0;
+    const auto counted = [&](double p) {
+        ++tests;
+        return p;
+    };
+    EXPECT_TRUE(reject(std::vector{0.5, 0.0003, 0.9}, counted));
+    EXPECT_EQ(tests, 2) << "the second one decides";
+    EXPECT_FALSE(reject(std::vector{0.5, 0.0004, 0.9}, counted));
+    EXPECT_EQ(tests, 5);
 }
 
 } // namespace

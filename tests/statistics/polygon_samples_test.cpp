@@ -122,9 +122,8 @@ long double measure_of([[maybe_unused]] const Light<Kind>& light, const Polygon&
 /// \param make_sampler maps a light to a function from random numbers to directions.
 template <class Kind, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
-    std::vector<double> p_values;
     UniformFloats random(7);
-    for (const auto& light : cases<Kind>()) {
+    return reject(cases<Kind>(), [&](const auto& light) {
         const auto local = light_for<Kind, float>(light);
         const Cells cells(lit_part<Kind>(local));
         const auto measure = [&](const Polygon& cell) { return measure_of<Kind>(local, cell); };
@@ -134,10 +133,8 @@ bool samples_are_rejected(const MakeSampler& make_sampler) {
             const float x = random();
             ++observed[cells.index(sampler(Random{x, random()}))];
         }
-        p_values.push_back(
-            observed[Cells::kOutside] > 0 ? 0 : chi_square_test(cells.expected(measure), observed));
-    }
-    return reject(p_values);
+        return observed[Cells::kOutside] > 0 ? 0 : chi_square_test(cells.expected(measure), observed);
+    });
 }
 
 template <class Kind>

@@ -109,9 +109,8 @@ private:
 /// \param make_sampler maps a lobe to a function from random numbers to directions.
 template <class Cap, class MakeSampler>
 bool samples_are_rejected(const MakeSampler& make_sampler) {
-    std::vector<double> p_values;
     UniformFloats random(11);
-    for (const GgxReference& lobe : lobes()) {
+    return reject(lobes(), [&](const GgxReference& lobe) {
         const auto sampler = make_sampler(lobe);
         const auto next = [&] {
             const float x = random();
@@ -122,9 +121,8 @@ bool samples_are_rejected(const MakeSampler& make_sampler) {
         const Cells<Cap> cells(lobe, some);
         std::vector<std::int64_t> observed(Cells<Cap>::kCount);
         for (int i = 0; i < kSamples; ++i) ++observed[cells.index(next())];
-        p_values.push_back(chi_square_test(cells.expected(), observed));
-    }
-    return reject(p_values);
+        return chi_square_test(cells.expected(), observed);
+    });
 }
 
 template <class Cap>
