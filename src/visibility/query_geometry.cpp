@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace nusselt::visibility {
 
@@ -46,9 +47,12 @@ QueryGeometry make_query_geometry(const scene::Scene& scene) {
     };
     add_instance(0);
     for (const scene::Instance& instance : scene.instances) add_instance(instance.object + 1);
-    geometry.round_boxes.resize(scene.lights.of<scene::RoundLight>().size());
+    // Vulkan leaves out boxes without numbers.
+    std::array<float, 6> no_box;
+    no_box.fill(std::numeric_limits<float>::quiet_NaN());
+    geometry.round_boxes.resize(scene.lights.of<scene::RoundLight>().size(), no_box);
     for (const RoundSurface& surface : make_round_surfaces(scene)) {
-        auto& box = geometry.round_boxes[static_cast<std::size_t>(round_light_of(scene, surface.triangle))];
+        auto& box = geometry.round_boxes[surface.round_light];
         std::copy(surface.lower.begin(), surface.lower.end(), box.begin());
         std::copy(surface.upper.begin(), surface.upper.end(), box.begin() + 3);
     }

@@ -3,11 +3,13 @@
 #include "scene/model/bounds.h"
 #include "scene/model/lights/round/round_axes.h"
 #include "visibility/alpha.h"
+#include "visibility/embree_builder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace nusselt::visibility {
 
@@ -22,6 +24,7 @@ RoundSurface make_surface(const scene::Scene& scene, std::size_t index, std::uin
     RoundSurface result{};
     result.scene = &scene;
     result.light = static_cast<std::uint32_t>(scene.triangle_light[triangle]);
+    result.round_light = static_cast<std::uint32_t>(index);
     result.triangle = triangle;
     result.is_flat = is_flat(light);
     result.is_partial = presence_of(scene.materials[scene.triangle_material[triangle]]) == Presence::partial;
@@ -252,9 +255,10 @@ std::vector<RoundSurface> make_round_surfaces(const scene::Scene& scene) {
         const std::int64_t light = round_light_of(scene, i);
         if (light < 0 || is_known[static_cast<std::size_t>(light)]) continue;
         is_known[static_cast<std::size_t>(light)] = true;
-        if (presence_of(scene.materials[scene.triangle_material[i]]) != Presence::none)
-            result.push_back(
-                make_surface(scene, static_cast<std::size_t>(light), static_cast<std::uint32_t>(i)));
+        if (presence_of(scene.materials[scene.triangle_material[i]]) == Presence::none) continue;
+        RoundSurface surface =
+            make_surface(scene, static_cast<std::size_t>(light), static_cast<std::uint32_t>(i));
+        if (is_usable(surface.lower) && is_usable(surface.upper)) result.push_back(std::move(surface));
     }
     return result;
 }

@@ -128,9 +128,7 @@ Box Builder::add_triangles(std::uint32_t first, std::uint32_t count) {
 void Builder::add_rounds() {
     std::vector<RTCBuildPrimitive> primitives;
     for (const RoundSurface& surface : make_round_surfaces(scene_))
-        primitives.push_back(
-            make_primitive(grown({surface.lower, surface.upper}),
-                           static_cast<std::uint32_t>(round_light_of(scene_, surface.triangle))));
+        primitives.push_back(make_primitive(grown({surface.lower, surface.upper}), surface.round_light));
     add_tree(std::move(primitives), {.width = kShape.width},
              [](const BuiltLeaf& leaf) { return interface::kBvhRound | leaf.primitive[0]; });
 }

@@ -173,5 +173,29 @@ TEST_P(RoundShadows, LetRaysPassWithTheSameProbabilities) {
     EXPECT_EQ(absent.differing, 0);
 }
 
+TEST_P(RoundShadows, LeaveOutLightsThatTheyCannotMeet) {
+    // Rays through the origin would meet boxes without a size there.
+    scene::Scene scene = scene_of(make_lights({0, 0, 0}));
+    scene.materials[0].alpha = 0;
+    std::vector<Ray> rays;
+    for (int i = 0; i < 1000; ++i) {
+        const auto from = point({0, 0, 0}, 4);
+        rays.push_back({from, {-2 * from[0], -2 * from[1], -2 * from[2]}, 1});
+    }
+    EXPECT_EQ(compare_with_cpu(scene, rays).blocked, 0);
+    EXPECT_EQ(compare_with_cpu(scene, rays).differing, 0);
+
+    // Nor may coordinates for which no structure has room cost the others.
+    scene.materials[0].alpha = 1;
+    const auto usual = compare_with_cpu(scene, rays);
+    RoundLight far = scene.lights.of<RoundLight>().front();
+    far.center = {1e19f, 0, 0};
+    add_round_light(scene, far);
+    const auto with_far = compare_with_cpu(scene, rays);
+    EXPECT_GT(usual.blocked, 0.5);
+    EXPECT_EQ(with_far.blocked, usual.blocked);
+    EXPECT_LE(with_far.differing, kMostDiffering);
+}
+
 } // namespace
 } // namespace nusselt::gpu_visibility_test

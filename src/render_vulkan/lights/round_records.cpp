@@ -46,8 +46,7 @@ std::vector<interface::RoundLightRecord> make_round_records(const scene::Scene& 
         record.triangle = interface::kNoTriangle;
     }
     for (const visibility::RoundSurface& surface : visibility::make_round_surfaces(scene)) {
-        interface::RoundLightRecord& record =
-            lights.at(surface.light - scene.lights.of<scene::PolygonLight>().size());
+        interface::RoundLightRecord& record = lights.at(surface.round_light);
         float* const rows[] = {record.inverse0, record.inverse1, record.inverse2};
         for (std::size_t i = 0; i < surface.inverse.size(); ++i)
             rows[i / 3][i % 3] = static_cast<float>(surface.inverse[i]);

@@ -59,7 +59,7 @@ struct AtNodes {
 template <int Places, class T, class Density>
 double dip_of(const nusselt::EllipticCone<T>& cone, const Density& density) {
     const nusselt::RimMap<T> map(cone);
-    if (!map.is_cut()) return 0;
+    if (!map.is_lit(cone)) return 0;
     const nusselt::RimDistribution<T, Places> rim(AtNodes<T, Density>{map, density});
     if (rim.is_exact()) return 0;
     const auto value = [&](long double z) {

@@ -12,8 +12,8 @@ namespace nusselt::scene {
 /// Whether the camera is inside of a round light that shines outwards only.
 bool surrounds_camera(const Scene& scene, const RoundLight& light);
 
-/// Why the camera sees no light of a round light: the light surrounds it. Nothing for lights without a
-/// surface, or with one that is only partly there, since their light comes back from what is outside.
+/// Why the camera sees no light of a round light: the light surrounds it. Nothing for lights without a surface, or with one that
+/// is only partly there: rays pass it and meet what the light illuminates outside.
 /// \param index among the round lights of the scene
 Darkness darkness_inside(const Scene& scene, std::size_t index);
 
