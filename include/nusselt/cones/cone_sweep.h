@@ -14,7 +14,7 @@
 /// result give its distribution up to rounding for ordinary lights, 64 for nearly all that are close to the point or much longer
 /// than wide (docs/techniques/elliptic_cone.md).
 
-#include <nusselt/cones/rim_densities.h>
+#include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/rim_distribution.h>
 #include <nusselt/cones/rim_map.h>
 
@@ -32,7 +32,7 @@ namespace detail {
 /// The measure of the sweep per z.
 struct CosineSweepDensity {
     template <class Real>
-    NUSSELT_HD static Real at(const RimMap<Real>& map, const Real& z) noexcept {
+    NUSSELT_HD static Real density_at(const RimMap<Real>& map, const Real& z) noexcept {
         return map.density(map.turned(z));
     }
 };
@@ -51,7 +51,7 @@ public:
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<detail::CosineSweepDensity>(map_));
-        measure_ = detail::swept_measure(rim_.integral() * map_.scale(), map_.is_lit(cone));
+        measure_ = detail::cone_measure(rim_.integral() * map_.scale(), map_.is_lit(cone));
     }
 
     template <class Single>
@@ -108,7 +108,7 @@ public:
 private:
     RimMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    detail::SweptMeasure<Real> measure_;
+    detail::ConeMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

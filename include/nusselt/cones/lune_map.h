@@ -56,13 +56,13 @@ public:
         const Real vw = ahead * (a_ * b_) * cone.e3.y;
         const Real away = detail::hypotenuse(vx, vy);
         const Real inverse = detail::over_positive(Real(1), max(away, vw));
-        volume_ = max(away, vw);
+        pole_scale_ = max(away, vw);
         away_ = away * inverse;
         level_ = vw * inverse;
         // A pole within rounding of the rim counts as one on the rim: there, half-planes on the far side have no end of
         // their own.
         is_inside_ = vw > Real(1 + 256 * std::numeric_limits<Scalar>::epsilon()) * away;
-        const auto aside = away > Real(kTiny<Scalar>) * volume_;
+        const auto aside = away > Real(kTiny<Scalar>) * pole_scale_;
         const Real inverse_away = Real(1) / select(aside, away, Real(1));
         farthest_ = {select(aside, -vx * inverse_away, Real(1)), select(aside, -vy * inverse_away, Real(0))};
         tangent_cosine_ =
@@ -146,7 +146,7 @@ public:
     /// Unit: horizontal, perpendicular to the pole, and above the second horizon.
     NUSSELT_HD const Vec3<Real>& h() const noexcept { return h_; }
     /// The measure of the sweep over the integral of density() over z.
-    NUSSELT_HD Real scale() const noexcept { return volume_ * half_range_; }
+    NUSSELT_HD Real scale() const noexcept { return pole_scale_ * half_range_; }
 
     /// \param z in [-1, 1]
     NUSSELT_HD Turn turned(const Real& z) const noexcept {
@@ -338,7 +338,7 @@ private:
     Real a_, b_, c_;
     Vec3<Real> pole_, h_;
     Real turn_sign_;    ///< of angles in the disk as half-planes turn up from the first horizon
-    Real volume_;       ///< by which the next two are divided
+    Real pole_scale_;   ///< by which the next two are divided
     Real away_, level_; ///< the pole as a homogeneous point of the disk: distance from the centre, weight
     mask_t<Real> is_inside_; ///< whether the pole is in the cone
     Vec2<Real> farthest_;    ///< the point of the rim opposite to the pole
@@ -361,7 +361,7 @@ private:
     friend struct detail::Members;
     template <class Self, class Visit>
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
-        visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.volume_, self.away_,
+        visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.pole_scale_, self.away_,
               self.level_, self.is_inside_, self.farthest_, self.inner_, self.tangent_cosine_, self.basis_h_,
               self.basis_p_, self.basis_n_, self.is_clipped_, self.is_lit_, self.squeeze_, self.stretch_,
               self.mid_, self.mid_length_, self.starts_at_horizon_, self.start_, self.level_cosine_,

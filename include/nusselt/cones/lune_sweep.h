@@ -14,17 +14,17 @@
 /// does not change if the pole enters the cone. It vanishes at the first horizon and not at the second one; with
 /// z = 1 - (1 - w)^2 / 2 it has the zero in w that rim_distribution.h expects.
 
+#include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/cone_sweep.h>
 #include <nusselt/cones/lune_map.h>
-#include <nusselt/cones/rim_densities.h>
 #include <nusselt/cones/rim_distribution.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
 namespace detail {
 
-/// The place w whose density has zeros at both ends.
-struct LunePlaces {
+/// A change of variable from w to z, with which the density vanishes at the second horizon, too.
+struct LuneChange {
     template <class Real>
     NUSSELT_HD static Real stretched(const Real& w) noexcept {
         const Real rest = Real(1) - w;
@@ -37,7 +37,7 @@ struct LunePlaces {
         return min(w, Real(1 - 4 * std::numeric_limits<scalar_t<Real>>::epsilon()));
     }
     template <class Real>
-    NUSSELT_HD static Real at(const LuneMap<Real>& map, const Real& w) noexcept {
+    NUSSELT_HD static Real density_at(const LuneMap<Real>& map, const Real& w) noexcept {
         return (Real(1) - w) * map.density(map.turned(stretched(w)));
     }
 };
@@ -52,16 +52,16 @@ struct LunePlaces {
 template <class Real, int Places>
 class LuneSweep {
     using Scalar = scalar_t<Real>;
-    using Warp = detail::LunePlaces;
+    using Change = detail::LuneChange;
 
 public:
     LuneSweep() = default;
 
     /// \param is_visible whether the cone is that of a light with an extent.
     NUSSELT_HD LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept : map_(map) {
-        rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Warp>(map_));
-        measure_ = detail::swept_measure(rim_.integral() * map_.scale(),
-                                         mask_t<Real>(map_.is_clipped() & is_visible));
+        rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Change>(map_));
+        measure_ = detail::cone_measure(rim_.integral() * map_.scale(),
+                                        mask_t<Real>(map_.is_clipped() & is_visible));
     }
 
     template <class Single>
@@ -71,7 +71,7 @@ public:
 
     /// \param u in [0, 1)^2; u.x turns around the axis, u.y leads away from the pole. Continuous in both.
     NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
-        const auto turn = map_.turned(Warp::stretched(rim_.invert(u.x)));
+        const auto turn = map_.turned(Change::stretched(rim_.invert(u.x)));
         const Real angle = angle_at(turn, u.y);
         const auto s = sincos_half_turn(turn.near_gamma + angle);
         Vec3<Real> wi = s.cos * map_.pole() + (s.sin * turn.away.x) * map_.h();
@@ -84,8 +84,8 @@ public:
     /// The density of a unit direction in the cone over its cosine [1/sr].
     NUSSELT_HD Real density_per_cosine(const Vec3<Real>& wi) const noexcept {
         if (all(rim_.is_exact())) return measure_.inverse;
-        const Real w = Warp::squeezed(map_.place_of(wi));
-        const Real ratio = detail::over_positive(rim_.value(w), Warp::at(map_, w));
+        const Real w = Change::squeezed(map_.place_of(wi));
+        const Real ratio = detail::over_positive(rim_.value(w), Change::density_at(map_, w));
         return select(rim_.is_exact(), Real(1), ratio) * measure_.inverse;
     }
 
@@ -96,7 +96,7 @@ public:
         const Real gamma = atan2_positive(across, dot(wi, map_.pole()));
         const Real angle = min(max(gamma - turn.near_gamma, Real(0)), turn.angle);
         const auto half = sincos_half_turn(Real(0.5) * angle);
-        const Real below = rim_.below(Warp::squeezed(turn.z));
+        const Real below = rim_.below(Change::squeezed(turn.z));
         return {below_one(detail::over_positive(below, rim_.integral())),
                 below_one(
                     detail::over_positive(map_.measure_up_to(turn, angle, half.sin, half.cos), whole(turn)))};
@@ -142,7 +142,7 @@ private:
 
     LuneMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    detail::SweptMeasure<Real> measure_;
+    detail::ConeMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

@@ -11,8 +11,8 @@
 
 #include <limits>
 
+#include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/cone_sweep.h>
-#include <nusselt/cones/rim_densities.h>
 #include <nusselt/cones/rim_distribution.h>
 #include <nusselt/cones/rim_map.h>
 
@@ -21,7 +21,7 @@ NUSSELT_NAMESPACE_BEGIN
 namespace detail {
 
 /// A change of the variable, from w to z: a density that does not vanish at both ends has the factor 1 - w^2 in w.
-struct SolidSweepPlaces {
+struct SolidSweepChange {
     /// \param w in [-1, 1]
     template <class Real>
     NUSSELT_HD static Real stretched(const Real& w) noexcept {
@@ -43,7 +43,7 @@ struct SolidSweepPlaces {
     }
     /// The measure of the sweep per w.
     template <class Real>
-    NUSSELT_HD static Real at(const RimMap<Real>& map, const Real& w) noexcept {
+    NUSSELT_HD static Real density_at(const RimMap<Real>& map, const Real& w) noexcept {
         return slope(w) * map.solid_density(map.turned(stretched(w)));
     }
 };
@@ -56,7 +56,7 @@ struct SolidSweepPlaces {
 /// \tparam Places of the rim, kConePlaces or kFineConePlaces.
 template <class Real, int Places>
 class SolidSweep {
-    using Change = detail::SolidSweepPlaces;
+    using Change = detail::SolidSweepChange;
 
 public:
     SolidSweep() = default;
@@ -64,7 +64,7 @@ public:
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit SolidSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Change>(map_));
-        measure_ = detail::swept_measure(rim_.integral() * map_.solid_scale(), map_.is_lit(cone));
+        measure_ = detail::cone_measure(rim_.integral() * map_.solid_scale(), map_.is_lit(cone));
     }
 
     template <class Single>
@@ -116,7 +116,7 @@ public:
 private:
     RimMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    detail::SweptMeasure<Real> measure_;
+    detail::ConeMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

@@ -10,6 +10,7 @@
 /// with an odd term that is a correction of the order of the angular size. The measure is that of E. Heitz and S. Hill 2017,
 /// Linear-Light Shading with Linearly Transformed Cosines, for ellipses: the cosine of the axis times pi alpha beta.
 
+#include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/cone_sweep.h>
 #include <nusselt/cones/elliptic_cone.h>
 
@@ -46,13 +47,10 @@ public:
         const auto rises = e3_.z > Real(0);
         const Real inverse = Real(1) / select(rises, e3_.z, Real(1));
         odd_ = {e1_.z * alpha_ * inverse, e2_.z * beta_ * inverse};
-        const Real measure = Real(kPi<Scalar>) * (alpha_ * beta_) * e3_.z;
-        const Real inverse_measure = Real(1) / select(measure > Real(0), measure, Real(1));
-        // Fractions of the measure must not be denormal: processors may flush them to zero.
-        constexpr Scalar kLeast = 4 * std::numeric_limits<Scalar>::min();
-        const auto lit = rises & cone.is_visible & (measure > Real(kLeast)) & is_finite(inverse_measure);
-        measure_ = select(lit, measure, Real(0));
-        inverse_measure_ = select(lit, inverse_measure, Real(0));
+        const auto measure = detail::cone_measure(Real(kPi<Scalar>) * (alpha_ * beta_) * e3_.z,
+                                                  mask_t<Real>(rises & cone.is_visible));
+        measure_ = measure.value;
+        inverse_measure_ = measure.inverse;
     }
 
     template <class Single>

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ d2f138ce0eba
+// Follows include/nusselt/cones/lune_map.h @ 013d36eaec62
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -13,7 +13,7 @@ struct LuneMap {
     vec3 lengths;            ///< a, b, c of the cone
     float ahead, side;       ///< signs of the pole along y and of h along x
     float turn_sign;         ///< of angles in the disk as half-planes turn up from the first horizon
-    float volume;            ///< by which the next two are divided
+    float pole_scale;        ///< by which the next two are divided
     float away, level;       ///< the pole as a homogeneous point of the disk: distance from the centre, weight
     bool is_inside;          ///< whether the pole is in the cone
     vec2 farthest;           ///< the point of the rim opposite to the pole
@@ -138,14 +138,14 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     vec2 pole = self.ahead * vec2((b * c) * cone.e1.y, (a * c) * cone.e2.y);
     float weight = self.ahead * (a * b) * cone.e3.y;
     float away = hypotenuse(pole.x, pole.y);
-    self.volume = nusselt_max(away, weight);
-    float inverse = over_positive(1.0, self.volume);
+    self.pole_scale = nusselt_max(away, weight);
+    float inverse = over_positive(1.0, self.pole_scale);
     self.away = away * inverse;
     self.level = weight * inverse;
     // A pole within rounding of the rim counts as one on the rim: there, half-planes on the far side have no end of
     // their own.
     self.is_inside = weight > (1.0 + 256.0 * kNusseltEpsilon) * away;
-    bool aside = away > kNusseltTiny * self.volume;
+    bool aside = away > kNusseltTiny * self.pole_scale;
     self.farthest = aside ? -(1.0 / away) * pole : vec2(1.0, 0.0);
     self.tangent_cosine = self.is_inside ? 0.0 : nusselt_min(self.level / self.away, 1.0);
     self.inner = self.is_inside ? (1.0 / weight) * pole : pole;
@@ -203,7 +203,7 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
 }
 
 /// The measure of the sweep over the integral of lune_turn_density() over z.
-float lune_map_scale(const LuneMap self) { return self.volume * self.half_range; }
+float lune_map_scale(const LuneMap self) { return self.pole_scale * self.half_range; }
 
 /// What a half-plane has of the cone, from its far end.
 /// \param far_cosine of the angle between the far end and the farthest point.

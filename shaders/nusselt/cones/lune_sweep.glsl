@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_SWEEP_GLSL
 #define NUSSELT_CONES_LUNE_SWEEP_GLSL
-// Follows include/nusselt/cones/lune_sweep.h @ 7cfe761fda17
+// Follows include/nusselt/cones/lune_sweep.h @ 8e05ec6674ad
 /// Sampling of the part of an elliptic cone between two horizons, in proportion to the cosine at the first one. Twin of
 /// include/nusselt/cones/lune_sweep.h, where the method is described.
 
@@ -37,7 +37,7 @@ LuneSweep make_lune_sweep(const LuneMap map, bool is_visible) {
     self.map = map;
     float value[kNusseltRimNodes];
     // Without NUSSELT_UNROLL: drivers would compile 16 copies of the density.
-    for (int i = 0; i < kNusseltRimNodes; ++i) value[i] = lune_sweep_density(map, kNusseltRimNode[i]);
+    NUSSELT_LOOP for (int i = 0; i < kNusseltRimNodes; ++i) value[i] = lune_sweep_density(map, kNusseltRimNode[i]);
     self.rim = make_rim_distribution(value);
     float measure = rim_distribution_integral(self.rim) * lune_map_scale(map);
     float inverse = 1.0 / (measure > 0.0 ? measure : 1.0);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ 3cea319d80a0
+// Follows include/nusselt/cones/whole_cone.h @ 2659af858ffa
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What sweeps of cones share: densities at the places of a rim, and measures that have an inverse.
+/// What samplers of cones share: densities at the nodes of a rim, and measures that have an inverse.
 
 #include <limits>
 #include <type_traits>
@@ -14,7 +14,7 @@ NUSSELT_NAMESPACE_BEGIN
 namespace detail {
 
 /// Fills the nodes of a RimDistribution. Scalar code takes the nodes as lanes, which have the bits of scalars.
-/// \tparam Density Density::at(map, node) is the density at a node.
+/// \tparam Density Density::density_at(map, node) is the density at a node.
 template <class Density, template <class> class Map, class Real>
 struct DensitiesAtNodes {
     const Map<Real>& map;
@@ -29,11 +29,11 @@ struct DensitiesAtNodes {
             float node[Nodes::kNodes];
             for (int i = 0; i < Nodes::kNodes; ++i) node[i] = Nodes::node(i);
             for (int i = 0; i < Nodes::kNodes; i += kLanes)
-                Density::at(lanes, Lanes::load(node + i)).store(value + i);
+                Density::density_at(lanes, Lanes::load(node + i)).store(value + i);
             return;
         }
 #endif
-        for (int i = 0; i < Nodes::kNodes; ++i) value[i] = Density::at(map, Real(Nodes::node(i)));
+        for (int i = 0; i < Nodes::kNodes; ++i) value[i] = Density::density_at(map, Real(Nodes::node(i)));
     }
 };
 
@@ -45,12 +45,12 @@ NUSSELT_INLINE DensitiesAtNodes<Density, Map, Real> densities_at_nodes(const Map
 
 /// A measure and its inverse; both are 0 without light.
 template <class Real>
-struct SweptMeasure {
+struct ConeMeasure {
     Real value, inverse;
 };
 
 template <class Real>
-NUSSELT_INLINE SweptMeasure<Real> swept_measure(const Real& measure, const mask_t<Real>& is_lit) noexcept {
+NUSSELT_INLINE ConeMeasure<Real> cone_measure(const Real& measure, const mask_t<Real>& is_lit) noexcept {
     const Real inverse = Real(1) / select(measure > Real(0), measure, Real(1));
     // Fractions of the measure must not be denormal: processors may flush them to zero.
     const auto positive = measure > Real(4 * std::numeric_limits<scalar_t<Real>>::min());
