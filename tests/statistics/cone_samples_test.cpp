@@ -9,6 +9,7 @@
 
 #include "cones/direction_integral.h"
 #include "cones/lobe_image.h"
+#include "cones/lune_integral.h"
 #include "cones/round_cases.h"
 #include "hypothesis.h"
 #include "ltc/reference.h"
@@ -156,6 +157,11 @@ double integral_of(const typename Kind::template Light<float>& light) {
             return std::max(o.z, 0.0L) / kPi * test_function(normalize(back.to_shading(o)));
         };
         const auto image = image_of(exact_light(light), ReferenceLobe(light.lobe));
+        if constexpr (Kind::kHorizon == nusselt::hostile::Horizon::clipped) {
+            const LuneRegion lune(nusselt::hostile::contour_of(image),
+                                  normalize(back.normal_to_cosine({0, 0, 1})));
+            return static_cast<double>(lune.integral(integrand, kTolerance));
+        }
         return static_cast<double>(
             DirectionRegion(image, DirectionRegion::Part::above_horizon).integral(integrand, kTolerance));
     } else {
@@ -168,13 +174,14 @@ double integral_of(const typename Kind::template Light<float>& light) {
 /// Whether means of the importance times a function over the density differ from integrals, by scrambled nets of random numbers.
 /// \param warp    maps random numbers that should be uniform.
 /// \param density of (technique, sample).
-template <class Kind, class Warp, class Density>
+/// \tparam Sampled whose samples pose as those of Kind.
+template <class Kind, class Sampled = Kind, class Warp, class Density>
 bool means_are_rejected(const Warp& warp, const Density& density) {
     std::vector<double> p_values;
     for (const auto& light : lights_for<Kind>()) {
         const double expected = integral_of<Kind>(light);
         if (!(expected > 1e-4)) continue; // next to nothing is above the horizon
-        const typename Kind::template Technique<float> technique(light);
+        const typename Sampled::template Technique<float> technique(light);
         const auto means = means_of([&](const auto& next) {
             const nusselt::Vec2<double> u = next();
             const auto in_float = [](double x) { return std::min(static_cast<float>(x), 1 - 0x1p-24f); };
@@ -231,6 +238,11 @@ TYPED_TEST(RoundSamplesTest, MutantsAreRejected) {
         kOwnDensity));
     EXPECT_TRUE(means_are_rejected<Kind>(
         unwarped, [gain](const auto&, const auto& sample) { return gain * sample.pdf; }));
+}
+
+TEST(ClippedRoundMutants, UnclippedLobesPosingAsClippedAreRejected) {
+    EXPECT_TRUE((means_are_rejected<SphereClippedLtcKind, SphereLtcKind>(unwarped, kOwnDensity)));
+    EXPECT_TRUE((means_are_rejected<EllipseClippedLtcKind, EllipseLtcKind>(unwarped, kOwnDensity)));
 }
 
 } // namespace
