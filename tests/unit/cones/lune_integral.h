@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cones/direction_integral.h"
 
@@ -28,7 +29,7 @@ public:
     long double integral(const Density& density, long double tolerance) const {
         static const QuadratureRule rule = gauss_legendre(24);
         const auto within = [&](long double beta) {
-            const Point axis{0, 1, 0}, away{side_ * std::cos(beta), 0, std::sin(beta)};
+            const Point axis{0, 1, 0}, away = away_at(beta);
             const Point v = in_cone(axis), d = in_cone(away);
             // The form is middle + swing cos(2 gamma - turn), and negative in the cone.
             const long double vv = form(v, v), dd = form(d, d), vd = form(v, d);
@@ -52,15 +53,33 @@ public:
             }
             return sum;
         };
-        constexpr int kPanels = 16;
+        // Half-planes that touch the cone are ends of panels: the discriminant is one of 2 beta.
+        const long double first = discriminant(0), second = discriminant(kPi / 2);
+        const long double mean = (first + second) / 2, x = (first - second) / 2,
+                          y = discriminant(kPi / 4) - mean;
+        std::vector<long double> ends{0, end_};
+        const long double share = -mean / std::hypot(x, y);
+        if (std::fabs(share) < 1) {
+            for (const long double sign : {-1.0L, 1.0L}) {
+                const long double touch = (std::atan2(y, x) + sign * std::acos(share)) / 2;
+                for (const long double beta : {touch - kPi, touch, touch + kPi})
+                    if (0 < beta && beta < end_) ends.push_back(beta);
+            }
+        }
+        std::sort(ends.begin(), ends.end());
         long double sum = 0;
-        for (int i = 0; i < kPanels; ++i)
-            sum += adaptive_integral(within, end_ * i / kPanels, end_ * (i + 1) / kPanels,
-                                     tolerance / kPanels, 40);
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+            sum += adaptive_integral(within, ends[i], ends[i + 1], tolerance / 4, 40);
         return sum;
     }
 
 private:
+    Point away_at(long double beta) const { return {side_ * std::cos(beta), 0, std::sin(beta)}; }
+    /// Positive if the plane at an angle cuts the cone.
+    long double discriminant(long double beta) const {
+        const Point v = in_cone({0, 1, 0}), d = in_cone(away_at(beta));
+        return form(v, d) * form(v, d) - form(v, v) * form(d, d);
+    }
     /// A direction as s u + t v + w center.
     Point in_cone(const Point& wi) const {
         return (1 / volume_) * Point{dot(rows_[0], wi), dot(rows_[1], wi), dot(rows_[2], wi)};
