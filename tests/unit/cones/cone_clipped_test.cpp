@@ -105,7 +105,7 @@ TEST(ConeClippedSolidAngleTest, WeightsOfWideConesAreNearlyConstantWithMorePlace
             });
         });
     }
-    constexpr double kTarget = 0.01;
+    constexpr double kTarget = 0.02; // cone_weights_test.cpp has quantiles
     EXPECT_LE(fine, kTarget);
     EXPECT_GT(coarse, kTarget);
 }

@@ -77,7 +77,7 @@ double dip_of(const nusselt::EllipticCone<T>& cone, const Density& density) {
 /// @{
 struct BySolidAngle {
     static constexpr const char* kName = "solid angle";
-    static constexpr bool kReachesAntipode = false;
+    static constexpr bool kReachesAntipode = false, kHasFewPlaces = false;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -104,6 +104,7 @@ template <int Places>
 struct ByProjectedSolidAngle : BySolidAngle {
     static constexpr const char* kName =
         Places == nusselt::kConePlaces ? "projected solid angle" : "projected solid angle, many places";
+    static constexpr bool kHasFewPlaces = Places == nusselt::kConePlaces;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -141,7 +142,7 @@ struct ByClippedSolidAngle : ByProjectedSolidAngle<Places> {
 
 struct ByLobe {
     static constexpr const char* kName = "lobe, many places";
-    static constexpr bool kReachesAntipode = false;
+    static constexpr bool kReachesAntipode = false, kHasFewPlaces = false;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -236,12 +237,13 @@ double explained_error(const Light& light) {
 /// The error of an integral that needs no explanation.
 template <class T>
 constexpr double kSmallError = std::is_same_v<T, float> ? 1e-5 : 1e-10;
-/// That of lights so near that their rays almost reach the antipode of the pole, where 1 plus a cosine cancels. Without the
-/// cosine at the surface, this part counts.
+/// The same for all lights of a class. Of near lights, rays almost reach the antipode of the pole, where 1 plus a cosine cancels in
+/// float. With few places, some lights take linear interpolants, of which quadrature over directions misses corners.
 template <class T, class Technique>
 constexpr double small_error(Place place) {
-    const bool cancels = std::is_same_v<T, float> && place == Place::near && Technique::kReachesAntipode;
-    return cancels ? 3e-5 : kSmallError<T>;
+    if (std::is_same_v<T, float>)
+        return Technique::kReachesAntipode && place == Place::near ? 3e-5 : kSmallError<T>;
+    return Technique::kHasFewPlaces ? 1e-6 : kSmallError<T>;
 }
 /// Of quadrature. Corners of linear interpolants mislead its estimate of the error; in float, more would integrate noise.
 template <class T>

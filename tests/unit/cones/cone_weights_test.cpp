@@ -1,9 +1,15 @@
 /// Tests of the weights of samples: how far densities are from perfect importance sampling.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include <nusselt/cones/cone_clipped_solid_angle.h>
+#include <nusselt/cones/cone_projected_solid_angle.h>
+#include <nusselt/cones/cone_solid_angle.h>
 
 #include "common/effort.h"
 #include "cones/round_cases.h"
@@ -84,32 +90,151 @@ TEST(ConeWeightsTest, ConesThatTheHorizonCutsHaveBoundedWeights) {
     }
 }
 
+/// Weights of stratified samples of a technique, over their mean.
+/// \param weight of a sample
+template <class Technique, class Weight>
+std::vector<double> weights_of(const Technique& technique, const Weight& weight) {
+    constexpr int kSide = 12;
+    std::vector<double> weights;
+    double sum = 0;
+    for (int k = 0; k < kSide * kSide; ++k) {
+        weights.push_back(weight(technique.sample({(static_cast<float>(k % kSide) + 0.5f) / kSide,
+                                                   (static_cast<float>(k / kSide) + 0.5f) / kSide})));
+        sum += weights.back();
+    }
+    for (double& w : weights) w *= static_cast<double>(weights.size()) / sum;
+    return weights;
+}
+
+constexpr auto kOverDensity = [](const auto& s) { return 1 / static_cast<double>(s.pdf); };
+
+/// The largest difference of a weight from the mean of its light.
+double spread(const std::vector<double>& weights) {
+    double largest = 0;
+    for (const double w : weights) largest = std::max(largest, std::fabs(w - 1));
+    return largest;
+}
+
+template <template <class> class Light>
+auto by_solid_angle(const Light<float>& light) {
+    return nusselt::ConeSolidAngle<float, Light>(light);
+}
+template <int Places, template <class> class Light>
+auto by_clipped_solid_angle(const Light<float>& light) {
+    return nusselt::ConeClippedSolidAngle<float, Light, Places>(light);
+}
+template <template <class> class Light>
+auto by_projected_solid_angle(const Light<float>& light) {
+    return nusselt::ConeProjectedSolidAngle<float, Light>(light);
+}
+
 TEST(ConeWeightsTest, SolidAngleHasNearlyConstantWeights) {
     RandomLights random(43);
     double least = 1, largest = 1;
     for (int i = 0; i < at_effort(400, 30'000); ++i) {
         const Place place = kPlaces[i % 6];
         with_light<float>(random(kShapes[i % 4], place), [&](const auto& light) {
-            const auto technique = [&]<template <class> class Light>(const Light<float>& l) {
-                return nusselt::ConeSolidAngle<float, Light>(l);
-            }(light);
-            constexpr int kSide = 12;
-            std::vector<double> weights;
-            double sum = 0;
-            for (int k = 0; k < kSide * kSide; ++k) {
-                const auto s = technique.sample({(static_cast<float>(k % kSide) + 0.5f) / kSide,
-                                                 (static_cast<float>(k / kSide) + 0.5f) / kSide});
-                weights.push_back(1 / static_cast<double>(s.pdf));
-                sum += weights.back() / (kSide * kSide);
-            }
+            const std::vector<double> weights = weights_of(by_solid_angle(light), kOverDensity);
             const auto [low, high] = std::minmax_element(weights.begin(), weights.end());
-            least = std::min(least, *low / sum);
-            largest = std::max(largest, *high / sum);
+            least = std::min(least, *low);
+            largest = std::max(largest, *high);
         });
     }
     if (at_effort(false, true)) std::printf("| solid angle | %.4f | %.4f |\n", least, largest);
     EXPECT_GE(least, 0.99);
     EXPECT_LE(largest, 1.015);
+}
+
+struct Spread {
+    const char* name;
+    Place place;
+    double few, many; ///< upper bounds of 99 % of the lights, for kConePlaces and kFineConePlaces
+};
+
+double quantile_99(std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    return values[(values.size() - 1) * 99 / 100];
+}
+
+/// Where the horizon cuts a light. One of several thousand near or thin ones is interpolated linearly, with any number of places.
+TEST(ConeWeightsTest, ClippedSolidAngleHasNearlyConstantWeights) {
+    constexpr Spread kSpreads[] = {
+        {"ordinary", Place::ordinary, 3e-3, 1e-4},   {"at the horizon", Place::at_horizon, 3e-3, 1e-4},
+        {"tiny", Place::tiny, 1e-4, 3e-5},           {"edge-on", Place::edge_on, 3e-3, 1e-4},
+        {"elongated", Place::elongated, 0.01, 1e-4}, {"near", Place::near, 0.15, 1e-3},
+        {"needles", Place::needle, 0.15, 0.01}};
+    for (const Spread& s : kSpreads) {
+        RandomLights random(47);
+        std::vector<double> few, many;
+        for (int i = 0; i < at_effort(200, 10'000); ++i) {
+            const RoundLight light = random(kShapes[i % 4], s.place);
+            const Silhouette silhouette = silhouette_of(light);
+            if (std::fabs(silhouette.center.z) >= std::hypot(silhouette.u.z, silhouette.v.z)) continue;
+            with_light<float>(light, [&](const auto& l) {
+                const auto coarse = by_clipped_solid_angle<nusselt::kConePlaces>(l);
+                const auto fine = by_clipped_solid_angle<nusselt::kFineConePlaces>(l);
+                few.push_back(spread(weights_of(coarse, kOverDensity)));
+                many.push_back(spread(weights_of(fine, kOverDensity)));
+            });
+        }
+        ASSERT_GT(few.size(), 10u) << s.name;
+        const double most_few = quantile_99(few), most_many = quantile_99(many);
+        if (at_effort(false, true))
+            std::printf("| %s | %zu | %.1e / %.1e | %.1e / %.1e |\n", s.name, few.size(), most_few,
+                        few.back(), most_many, many.back());
+        EXPECT_LE(most_few, s.few) << s.name;
+        EXPECT_LE(most_many, s.many) << s.name;
+    }
+}
+
+/// The mean and the mean square of the error of one sample of diffuse light of a radiance of 1.
+class Noise {
+public:
+    /// \param expected the projected solid angle of the light
+    template <class Technique>
+    void add(const Technique& technique, double expected) {
+        constexpr int kSide = 12;
+        for (int k = 0; k < kSide * kSide; ++k) {
+            const auto s = technique.sample({(static_cast<float>(k % kSide) + 0.5f) / kSide,
+                                             (static_cast<float>(k / kSide) + 0.5f) / kSide});
+            const double cosine = std::max(static_cast<double>(s.wi.z), 0.0);
+            const double error = (s.pdf > 0 ? cosine / static_cast<double>(s.pdf) : 0) - expected;
+            squares_ += error * error;
+            sum_ += expected;
+            ++count_;
+        }
+    }
+    double over_mean() const { return std::sqrt(squares_ * count_) / sum_; }
+
+private:
+    double squares_ = 0, sum_ = 0;
+    int count_ = 0;
+};
+
+/// As in an image: noise is that of all lights over the mean of all.
+TEST(ConeWeightsTest, DiffuseLightOfSpheresAndDisksHasNearlyNoNoise) {
+    for (const Shape shape : {Shape::sphere, Shape::disk}) {
+        RandomLights random(53);
+        Noise above, above_by_solid_angle, cut, cut_by_solid_angle;
+        for (int i = 0; i < at_effort(1000, 30'000); ++i) {
+            const RoundLight light = random(shape, i % 2 == 0 ? Place::ordinary : Place::at_horizon);
+            const Silhouette silhouette = silhouette_of(light);
+            const auto swing = std::hypot(silhouette.u.z, silhouette.v.z);
+            if (silhouette.center.z <= -swing) continue;
+            const bool is_cut = silhouette.center.z < swing;
+            const auto expected = static_cast<double>(projected_solid_angle_of(silhouette));
+            with_light<float>(light, [&](const auto& l) {
+                (is_cut ? cut : above).add(by_projected_solid_angle(l), expected);
+                (is_cut ? cut_by_solid_angle : above_by_solid_angle).add(by_solid_angle(l), expected);
+            });
+        }
+        if (at_effort(false, true))
+            std::printf("| noise | %.1e / %.1e | %.1e / %.1e |\n", above.over_mean(),
+                        above_by_solid_angle.over_mean(), cut.over_mean(), cut_by_solid_angle.over_mean());
+        EXPECT_LE(above.over_mean(), 1e-4);
+        EXPECT_GT(above_by_solid_angle.over_mean(), 1e-2);
+        EXPECT_LE(cut.over_mean(), 0.2 * cut_by_solid_angle.over_mean());
+    }
 }
 
 } // namespace
