@@ -120,7 +120,7 @@ commit=$(git rev-parse HEAD 2>/dev/null || echo unknown)
 
 mkdir -p "$(dirname "$output")"
 date=$(git log -1 --format=%cI 2>/dev/null || date -Iseconds)
-tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="$date" -cf - "$name" | xz --x86 --lzma2=preset=9e,dict=64MiB,lc=4 >"$output"
+tar -C "$work" --sort=name --owner=0 --group=0 --numeric-owner --mtime="$date" -cf - "$name" | xz --x86 --lzma2=preset=9,dict=64MiB,lc=4 >"$output"
 size=$(stat -c %s "$output")
 echo "$output: $((size / 1000000)).$((size / 100000 % 10)) MB, needs glibc $(sed -n 's/^glibc: //p' "$root/MANIFEST") or newer"
 # Whoever downloads it shall not wait.
