@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import operator
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
 import numpy as np
@@ -63,17 +63,18 @@ def real_array(value: npt.ArrayLike, name: str, dtype: npt.DTypeLike = None) -> 
         return np.asarray(array, dtype)
 
 
-def real_type(arguments: Sequence[npt.ArrayLike], dtype: npt.DTypeLike = None) -> np.dtype[Any]:
-    """float32 or float64: dtype, or what numpy gives the sum of the arguments."""
+def real_type(arguments: Mapping[str, npt.ArrayLike], dtype: npt.DTypeLike = None) -> np.dtype[Any]:
+    """float32 or float64: dtype, or what numpy gives the sum of the arguments, which have names."""
     if dtype is not None:
         chosen = np.dtype(dtype)
         if chosen not in (np.float32, np.float64):
             raise TypeError(f"dtype must be float32 or float64, not {chosen}")
         return chosen
-    known = [argument if isinstance(argument, (np.ndarray, np.generic, int, float)) else np.asarray(argument)
-             for argument in arguments]
-    common = np.result_type(*known)
-    _check_type(common, "arguments")
+    known = {name: argument if isinstance(argument, (np.ndarray, np.generic, int, float)) else np.asarray(argument)
+             for name, argument in arguments.items()}
+    for name, argument in known.items():
+        _check_type(np.asarray(argument).dtype, name)
+    common = np.result_type(*known.values())
     return np.dtype(np.float32 if common.newbyteorder("=") == np.float32 else np.float64)
 
 
@@ -170,7 +171,7 @@ def call(kernel: str, arguments: Sequence[tuple[str, npt.ArrayLike, Core]],
          values: Sequence[tuple[str, Core]], outs: Sequence[Array | None], dtype: npt.DTypeLike = None,
          threads: Threads = 1, table: _core.LtcTable | None = None) -> list[Array]:
     """Calls a kernel of the compiled module with arguments (name, value, core). values: (name, core) of its results."""
-    real = real_type([value for _, value, _ in arguments], dtype)
+    real = real_type({name: value for name, value, _ in arguments}, dtype)
     inputs = [random_operand(value, core, real) if name == "u" else operand(value, name, core, real)
               for name, value, core in arguments]
     cores = [core for _, _, core in arguments]

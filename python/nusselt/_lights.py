@@ -36,7 +36,7 @@ class Technique:
     _random: ClassVar[Core] = (2,)
 
     def __init__(self, parts: Sequence[tuple[str, npt.ArrayLike, Core]], dtype: npt.DTypeLike) -> None:
-        self._dtype = _arrays.real_type([value for _, value, _ in parts], dtype)
+        self._dtype = _arrays.real_type({name: value for name, value, _ in parts}, dtype)
         arrays = [_arrays.operand(value, name, core, self.dtype) for name, value, core in parts]
         cores = [core for _, _, core in parts]
         self._shape = _arrays.loop_shape(arrays, cores)

@@ -46,7 +46,7 @@ def to_world(frames: npt.ArrayLike, v: npt.ArrayLike) -> Array:
 
 
 def _rotated(sum_of_products: str, frames: npt.ArrayLike, v: npt.ArrayLike) -> Array:
-    dtype = _arrays.real_type([frames, v])
+    dtype = _arrays.real_type({"frames": frames, "v": v})
     rotated: Array = np.einsum(sum_of_products, _arrays.operand(frames, "frames", (3, 3), dtype),
                                _arrays.operand(v, "v", (3,), dtype))
     return rotated

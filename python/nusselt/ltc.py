@@ -105,6 +105,6 @@ def slots(core: tuple[int, ...]) -> int:
 
 def ends(begin: npt.ArrayLike, end: npt.ArrayLike) -> Array:
     """Both ends of lines in one array."""
-    dtype = _arrays.real_type([begin, end])
+    dtype = _arrays.real_type({"begin": begin, "end": end})
     both = [_arrays.operand(begin, "begin", (3,), dtype), _arrays.operand(end, "end", (3,), dtype)]
     return np.concatenate(np.broadcast_arrays(*both), axis=-1)

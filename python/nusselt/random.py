@@ -20,7 +20,7 @@ def light_random(sampler: str, x: npt.ArrayLike, y: npt.ArrayLike, sample: npt.A
     """
     if dtype is None:
         raise TypeError("dtype must be float32 or float64, not None")
-    real = _arrays.real_type([], dtype)
+    real = _arrays.real_type({}, dtype)
     _arrays.text(sampler, "sampler")
     pixels_and_samples = np.broadcast_arrays(*(_whole(value, name) for value, name in
                                                ((x, "x"), (y, "y"), (sample, "sample"))))

@@ -233,6 +233,7 @@ def test_wrong_arguments_are_errors(square):
             (TypeError, "float16", lambda: nusselt.PolygonArea(square, dtype=np.float16)),
             (TypeError, "complex", lambda: nusselt.PolygonArea(square * 1j)),
             (TypeError, "at most 64 bits, not float128", lambda: nusselt.PolygonArea(square.astype(np.longdouble))),
+            (TypeError, "radius must be real numbers of at most 64 bits, not <U1", lambda: nusselt.SphereSolidAngle([0, 0, 1], "a")),
             (TypeError, "u must be real numbers of at most 64 bits, not complex128", lambda: lights.sample([1j, 0])),
             (TypeError, "u must be .*, not float128", lambda: lights.sample(np.zeros(2, np.longdouble))),
             (TypeError, "wi must be real numbers .*, not <U", lambda: lights.pdf(["0", "0", "1"])),
