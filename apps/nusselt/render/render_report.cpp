@@ -93,9 +93,9 @@ void print_warnings(const RenderOptions& options, const render::RenderSettings& 
         if (samples_visible_normals(settings.strategies) && !list.has_brdf_samples() && list.size() > 0 &&
             list.quantity() == scene::kRadiance)
             print_message(
-                "warning: {} {} are sampled by {} alone: visible normals support only polygons, as no "
-                "sample ever hits a {}\n",
-                list.size(), list.plural(), name_of(settings.technique), list.name());
+                "warning: --strategies {}: visible normals support only polygons; {} alone samples {} {}\n",
+                name_of(settings.strategies), name_of(settings.technique), list.size(),
+                list.size() == 1 ? list.noun() : list.plural());
     if (settings.light_samples == render::LightSamples::lines &&
         settings.lines.many_occluders == render::ManyOccluders::points &&
         render::most_occluders_for_lines(settings.lines.count) < 0)
