@@ -35,9 +35,7 @@ Darkness darkness_inside(const Scene& scene, std::size_t index) {
     if (!surrounds_camera(scene, scene.lights.of<RoundLight>()[index]) || !has_opaque_surface(scene, index))
         return std::nullopt;
     return "the scene's camera is inside and sees none of its light, because it shines outwards; "
-           "ReverseOrientation "
-           "in a pbrt scene "
-           "or \"inwards\": true in a light rig turns it";
+           "ReverseOrientation in a pbrt scene or \"inwards\": true in a light rig turns it";
 }
 
 void warn_of_surrounding_lights(const Scene& scene, Warnings& warnings) {
