@@ -5,7 +5,7 @@
 #include "passes/cells/polygon_cells.glsl"
 
 void add_polygon(inout Reflected reflected, const LocalPolygon light) {
-    if (light.texture_number < 0) {
+    if (!kHasTexturedPolygons || light.texture_number < 0) {
         if (kHasPolygons || kHasPortals) add_light(reflected, light.role, lobe_integrals(light.shape, reflected.glossy.lobe));
         return;
     }
