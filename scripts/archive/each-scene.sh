@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs a command of the laboratory for some scenes, each in a process of its own: a driver that crashes takes the results of
-# one scene with it.
+# Runs a command of the laboratory for some scenes, each in a process of its own: a driver that crashes takes the
+# results of one scene with it.
 # Usage: each-scene.sh FOLDER "NAME..." COMMAND...
 #   FOLDER   for results: NAME.json of each scene, with a failure where the command left none
 #   NAME     a file NAME.pbrt next to the kit's other scenes, or bathroom: that of the folder that NUSSELT_SCENES names

@@ -97,7 +97,8 @@ step() {
     case $outcome in failed | late) tail -n 3 "$out/$name.log" | sed 's/^/           /' ;; esac
 }
 
-# step_of_scenes NAME SCENES COMMAND...: a step with a process for each of these shipped scenes. Results: OUT/NAME/SCENE.json
+# step_of_scenes NAME SCENES COMMAND...: a step with a process for each of these shipped scenes. Results:
+# OUT/NAME/SCENE.json
 step_of_scenes() {
     step_name=$1 step_scenes=$2
     shift 2

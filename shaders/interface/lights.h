@@ -161,7 +161,7 @@ struct RoundLightRecord {
     float axis0[3];
     float axis1[3];
     float axis2[3];
-    float inverse0[3]; ///< rows of the inverse of the matrix with the axes; of flat lights with the normal in place of axis2
+    float inverse0[3]; ///< rows of the inverse of the matrix with the axes; flat lights have their normal as axis2
     float inverse1[3];
     float inverse2[3];
     float normal[3];

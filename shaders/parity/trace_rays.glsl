@@ -1,4 +1,5 @@
-/// Traces rays from a buffer, past triangles and round lights. An entry point declares what its way to trace rays needs, then includes this file and the way.
+/// Traces rays from a buffer, past triangles and round lights. An entry point declares what its way to trace rays
+/// needs, then includes this file and the way.
 
 #include "interface/lights.h"
 

@@ -46,7 +46,8 @@ DrawnTriangle drawn_triangle(uint number) {
         else
             end = middle;
     }
-    return DrawnTriangle(instances[first].first_triangle + (number - instances[first].first_drawn), int(first), true, -1, 0);
+    uint triangle = instances[first].first_triangle + (number - instances[first].first_drawn);
+    return DrawnTriangle(triangle, int(first), true, -1, 0);
 }
 
 vec3 vertex_position(uint vertex) { return to_vec(vertices[vertex].position); }

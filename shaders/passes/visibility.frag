@@ -28,8 +28,9 @@ bool draw_round(uint light, const Ray ray) {
     for (int i = 0; i < crossings.count; ++i) {
         float t = crossing_at(crossings, i);
         if (!(t > 0.0)) continue;
+        vec3 point = crossing_point(light, unit, crossings, i);
         if (kHasPartial && round_lights[light].is_partial != 0u &&
-            !meets_crossing(ShadowRay(ray.origin, ray.direction, 0.0), light, crossing_point(light, unit, crossings, i), i))
+            !meets_crossing(ShadowRay(ray.origin, ray.direction, 0.0), light, point, i))
             continue;
         write_depth(t);
         number = drawn_number + uint(i) + 1u;

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-/// Draws all triangles of a scene, and a box around each round light: three vertices for each triangle, without vertex input.
+/// Draws all triangles of a scene, and a box around each round light: three vertices for each triangle, without vertex
+/// input.
 
 #include "passes/scene.glsl"
 #include "passes/rounds/round_surface.glsl"
@@ -52,7 +53,8 @@ vec3 cube_corner(uint triangle, uint corner) {
     return p;
 }
 
-/// Draws a corner of a box around a round light, some pixels of which the light fills: the fragment shader finds out which.
+/// Draws a corner of a box around a round light, some pixels of which the light fills: the fragment shader finds out
+/// which.
 /// \param triangle among those of all boxes
 void place_box(uint triangle, uint corner) {
     uint light = triangle / kRoundBoxTriangles;

@@ -30,8 +30,8 @@ public:
     /// \param triangles what instances are made of, at least one.
     /// \param instances their index is what shaders read as their custom index: fewer than 2^24. Those without triangles
     ///        are left out.
-    /// \param boxes lower and upper corners: shaders decide whether rays meet what is in them. Their index is that of the primitive;
-    ///        they are no instance of the list.
+    /// \param boxes lower and upper corners: shaders decide whether rays meet what is in them. Their index is that of
+    /// the primitive; they are no instance of the list.
     /// \throws Error if there are more instances, or the device has no memory for it.
     AccelerationStructure(const Device& device, std::span<const float> positions,
                           std::span<const RayTriangles> triangles, std::span<const RayInstance> instances,

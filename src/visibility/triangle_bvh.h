@@ -8,8 +8,9 @@
 
 namespace nusselt::visibility {
 
-/// The data of shaders/passes/trace_bvh.glsl. It has the surfaces that shadow rays can hit: those of triangles, emitters
-/// included, and round lights in place of their triangles, but not the tubes of line lights, nor what has no alpha at all.
+/// The data of shaders/passes/trace_bvh.glsl. It has the surfaces that shadow rays can hit: those of triangles,
+/// emitters included, and round lights in place of their triangles, but not the tubes of line lights, nor what has no
+/// alpha at all.
 struct TriangleBvh {
     std::vector<interface::BvhNode> nodes; ///< of the world, then of each object
     std::vector<interface::BvhTriangle> triangles;

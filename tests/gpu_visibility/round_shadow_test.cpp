@@ -133,7 +133,8 @@ TEST(RoundShadowsOnTheCpu, DifferFromThoseOfTriangles) {
 TEST_P(RoundShadows, DoNotHideTheirOwnSamples) {
     for (const float far : {0.0f, 300.0f}) {
         for (const RoundLight& light : make_lights({far, -far, far})) {
-            // From points around a light, it hides what is on its back, but no more than on the CPU. Inside, all is seen.
+            // From points around a light, it hides what is on its back, but no more than on the CPU. Inside, all is
+            // seen.
             const Results results = compare_with_cpu(
                 scene_of({light}), rays_to(light, light.model == RoundModel::hollow ? 1.5f : 20.0f, 20000));
             EXPECT_LE(results.differing, kMostDifferingAtEnds) << far;

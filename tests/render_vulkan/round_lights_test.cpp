@@ -110,7 +110,8 @@ TEST_F(RoundLightsOnGpu, AgreeWithTheCpu) {
     }
 }
 
-/// A round light that fills the image, of a material with all that follows texture coordinates, in the light of another one.
+/// A round light that fills the image, of a material with all that follows texture coordinates, in the light of another
+/// one.
 scene::Scene make_textured_scene(const RoundLight& shape) {
     scene::Scene scene = make_dark_scene();
     scene.triangles.clear();

@@ -5,8 +5,8 @@
 #include "passes/cells/polygon_cells.glsl"
 #include "passes/lights/techniques.glsl"
 
-/// Whether images decide where samples are; otherwise, polygons are sampled as if they were uniform. Scenes without images do not
-/// compile cells, which are more than half of the code for polygons.
+/// Whether images decide where samples are; otherwise, polygons are sampled as if they were uniform. Scenes without
+/// images do not compile cells, which are more than half of the code for polygons.
 const bool kHasCellSamples =
     kHasTexturedPolygons && kEmissionSampling == kEmissionSamplingProduct && kIsProjected && !kHasBrdfSamples;
 

@@ -78,8 +78,8 @@ RoundLightView view_of(RoundShape shape, const Ltc lobe) {
 /// A light in shading space. The axes of spheres and disks are those of the techniques of C++ for these shapes.
 RoundShape local_shape(uint light, const Surface surface) {
     Ellipsoid axes = to_shading_space(
-        Ellipsoid(to_vec(round_lights[light].center), to_vec(round_lights[light].axis0), to_vec(round_lights[light].axis1),
-                  to_vec(round_lights[light].axis2)),
+        Ellipsoid(to_vec(round_lights[light].center), to_vec(round_lights[light].axis0),
+                  to_vec(round_lights[light].axis1), to_vec(round_lights[light].axis2)),
         surface.position, surface.shading);
     uint kind = round_lights[light].shape;
     RoundShape shape;

@@ -22,8 +22,8 @@ struct RoundCosine {
     CosineCone cone;
 };
 
-/// ConeProjectedSolidAngle and ConeLtc, which have the same technique in two spaces, share their code: drivers take long to compile
-/// it twice, and one has crashed.
+/// ConeProjectedSolidAngle and ConeLtc, which have the same technique in two spaces, share their code: drivers take
+/// long to compile it twice, and one has crashed.
 struct RoundTechniques {
     bool is_by_area;
     EllipseArea area;
@@ -104,7 +104,8 @@ LightSample techniques_sample(const RoundTechniques self, int technique, vec2 u)
 /// The densities of both techniques. Pairs begin with a projected solid angle.
 vec2 techniques_pdf(const RoundTechniques self, vec3 wi) {
     vec2 pdf;
-    [[dont_unroll]] for (int technique = 0; technique < 2; ++technique) pdf[technique] = cosine_pdf(self, technique, wi);
+    [[dont_unroll]] for (int technique = 0; technique < 2; ++technique)
+        pdf[technique] = cosine_pdf(self, technique, wi);
     return pdf;
 }
 
@@ -113,8 +114,8 @@ vec2 techniques_integrals(const RoundTechniques self) {
                 nusselt_min((1.0 / kNusseltPi) * cosine_cone_measure(self.specular.cone), 1.0));
 }
 
-/// From inside, where all directions lead to the light, it is a little too large: see faces_solid_light(). Shadow rays end where
-/// it really is.
+/// From inside, where all directions lead to the light, it is a little too large: see faces_solid_light(). Shadow rays
+/// end where it really is.
 void modulate(const LocalRound light, inout DirectLightSample s) {
     if (!kHasEllipsoids || !light.inside) return;
     vec3 origin = in_unit_sphere(light.index, light.position - to_vec(round_lights[light.index].center));

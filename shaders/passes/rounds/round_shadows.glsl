@@ -1,15 +1,19 @@
 #ifndef NUSSELT_PASSES_ROUNDS_ROUND_SHADOWS_GLSL
 #define NUSSELT_PASSES_ROUNDS_ROUND_SHADOWS_GLSL
-/// Which round lights block a shadow ray. With ROUND_LIGHTS, besides what round_surface.glsl needs, a shader that includes this file must declare
-/// before a constant `bool kHasPartial`, and `float alpha_on_round(uint triangle, vec2 uv)`: the alpha of the material of
-/// Scene::triangles[triangle] at texture coordinates.
+/// Which round lights block a shadow ray. With ROUND_LIGHTS, besides what round_surface.glsl needs, a shader that
+/// includes this file must declare before:
+///
+///     a constant `bool kHasPartial`: whether the scene has surfaces with an alpha below 1;
+///     `float alpha_on_round(uint triangle, vec2 uv)`: the alpha of the material of Scene::triangles[triangle] at
+///     texture coordinates.
 
 #include "passes/shadow_ray.glsl"
 
 #if ROUND_LIGHTS
 #include "passes/rounds/round_surface.glsl"
 
-/// Rounding errors of rays in the space of the unit sphere, as a share of the distance between their origin and the light.
+/// Rounding errors of rays in the space of the unit sphere, as a share of the distance between their origin and the
+/// light.
 const float kUnitRayRounding = 4e-7;
 const float kMostShrinkage = 1e-3;
 
@@ -20,8 +24,8 @@ bool is_inside_or_near(uint light, vec3 point) {
     return dot(point, point) - 1.0 <= 2.0 * (tolerance + round_lights[light].rounding * steepness);
 }
 
-/// Which crossings, as if the surface were everywhere, lie between the ends of a shadow ray. Rays end next to the lights that
-/// they are for: up to rounding, points on the surface see all points of it that no other surface hides.
+/// Which crossings, as if the surface were everywhere, lie between the ends of a shadow ray. Rays end next to the
+/// lights that they are for: up to rounding, points on the surface see all points of it that no other surface hides.
 /// \returns bits
 uint crossings_in_way(uint light, const UnitRay ray, float t_far) {
     vec3 end = ray.origin + t_far * ray.direction;

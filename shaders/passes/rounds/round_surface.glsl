@@ -1,7 +1,7 @@
 #ifndef NUSSELT_PASSES_ROUNDS_ROUND_SURFACE_GLSL
 #define NUSSELT_PASSES_ROUNDS_ROUND_SURFACE_GLSL
-/// Where rays meet spheres, disks, ellipses and ellipsoids: src/visibility/round_surfaces.cpp in single precision. A shader that
-/// includes this file must declare before a buffer with the array `RoundLightRecord round_lights[]`.
+/// Where rays meet spheres, disks, ellipses and ellipsoids: src/visibility/round_surfaces.cpp in single precision. A
+/// shader that includes this file must declare before a buffer with the array `RoundLightRecord round_lights[]`.
 
 #include "nusselt/core/trig.glsl"
 #include "nusselt/core/vec.glsl"
@@ -35,7 +35,8 @@ struct UnitRay {
 
 UnitRay unit_ray(uint light, vec3 origin, vec3 direction) {
     vec3 from_center = origin - to_vec(round_lights[light].center);
-    return UnitRay(in_unit_sphere(light, from_center), in_unit_sphere(light, direction), largest_component(from_center));
+    return UnitRay(in_unit_sphere(light, from_center), in_unit_sphere(light, direction),
+                   largest_component(from_center));
 }
 
 /// Up to two places where a ray crosses a surface.
