@@ -43,11 +43,18 @@ NUSSELT_INLINE DensitiesAtNodes<Density, Map, Real> densities_at_nodes(const Map
     return {map};
 }
 
+} // namespace detail
+
 /// A measure and its inverse; both are 0 without light.
 template <class Real>
 struct ConeMeasure {
     Real value, inverse;
 };
+
+template <class Real, class Single>
+NUSSELT_INLINE ConeMeasure<Real> broadcast(const ConeMeasure<Single>& measure) noexcept {
+    return {Real(measure.value), Real(measure.inverse)};
+}
 
 template <class Real>
 NUSSELT_INLINE ConeMeasure<Real> cone_measure(const Real& measure, const mask_t<Real>& is_lit) noexcept {
@@ -57,7 +64,5 @@ NUSSELT_INLINE ConeMeasure<Real> cone_measure(const Real& measure, const mask_t<
     const auto lit = is_lit & positive & is_finite(inverse);
     return {select(lit, measure, Real(0)), select(lit, inverse, Real(0))};
 }
-
-} // namespace detail
 
 NUSSELT_NAMESPACE_END

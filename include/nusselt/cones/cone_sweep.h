@@ -51,7 +51,7 @@ public:
     /// \param cone with a visible part above the horizon.
     NUSSELT_HD explicit ConeSweep(const EllipticCone<Real>& cone) noexcept : map_(cone) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<detail::CosineSweepDensity>(map_));
-        measure_ = detail::cone_measure(rim_.integral() * map_.scale(), map_.is_lit(cone));
+        measure_ = cone_measure(rim_.integral() * map_.scale(), map_.is_lit(cone));
     }
 
     template <class Single>
@@ -108,7 +108,7 @@ public:
 private:
     RimMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    detail::ConeMeasure<Real> measure_;
+    ConeMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

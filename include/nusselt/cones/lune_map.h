@@ -37,6 +37,7 @@ public:
 
     LuneMap() = default;
 
+    /// Without a lane that is clipped, only is_clipped() and is_lit() are valid.
     /// \param normal of the second horizon, (x, 0, z), of unit length.
     NUSSELT_HD LuneMap(const EllipticCone<Real>& cone, const Vec3<Real>& normal) noexcept {
         // A half-space is a cone with a large angle; so nothing is infinite.
@@ -94,6 +95,9 @@ public:
         const auto above_second = second_cut.is_cut | (second.z > Real(0));
         is_lit_ =
             is_clipped_ | (has_second & above_first & above_second) | ((!has_second) & (normal.z > Real(0)));
+
+        // The map is costly to prepare, and seldom needed.
+        if (!any(is_clipped_)) return;
 
         // Choose the map of the rim.
         const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);

@@ -60,8 +60,7 @@ public:
     /// \param is_visible whether the cone is that of a light with an extent.
     NUSSELT_HD LuneSweep(const LuneMap<Real>& map, const mask_t<Real>& is_visible) noexcept : map_(map) {
         rim_ = RimDistribution<Real, Places>(detail::densities_at_nodes<Change>(map_));
-        measure_ = detail::cone_measure(rim_.integral() * map_.scale(),
-                                        mask_t<Real>(map_.is_clipped() & is_visible));
+        measure_ = cone_measure(rim_.integral() * map_.scale(), mask_t<Real>(map_.is_clipped() & is_visible));
     }
 
     template <class Single>
@@ -142,7 +141,7 @@ private:
 
     LuneMap<Real> map_;
     RimDistribution<Real, Places> rim_;
-    detail::ConeMeasure<Real> measure_;
+    ConeMeasure<Real> measure_;
 
     friend struct detail::Members;
     template <class Self, class Visit>

@@ -47,8 +47,8 @@ public:
         const auto rises = e3_.z > Real(0);
         const Real inverse = Real(1) / select(rises, e3_.z, Real(1));
         odd_ = {e1_.z * alpha_ * inverse, e2_.z * beta_ * inverse};
-        const auto measure = detail::cone_measure(Real(kPi<Scalar>) * (alpha_ * beta_) * e3_.z,
-                                                  mask_t<Real>(rises & cone.is_visible));
+        const auto measure =
+            cone_measure(Real(kPi<Scalar>) * (alpha_ * beta_) * e3_.z, mask_t<Real>(rises & cone.is_visible));
         measure_ = measure.value;
         inverse_measure_ = measure.inverse;
     }

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_SWEEP_GLSL
 #define NUSSELT_CONES_CONE_SWEEP_GLSL
-// Follows include/nusselt/cones/cone_sweep.h @ cc27adb1fd92
+// Follows include/nusselt/cones/cone_sweep.h @ c3490b49274e
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, in proportion to the cosine at the surface.
 /// Twin of include/nusselt/cones/cone_sweep.h, where the method is described.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ 013d36eaec62
+// Follows include/nusselt/cones/lune_map.h @ edf2eb055db8
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -121,6 +121,7 @@ LuneChord lune_map_chord(const LuneMap self, vec3 normal, vec3 out_of) {
     return chord;
 }
 
+/// Unless the cone is clipped, only is_clipped and is_lit are valid.
 /// \param normal of the second horizon, (x, 0, z), of unit length.
 LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     // A half-space is a cone with a large angle; so nothing is infinite.
@@ -166,6 +167,9 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     bool above_first = first_cut.is_met || (!first_cut.is_cut && self.basis_n.z > 0.0);
     bool above_second = second_cut.is_cut || second.z > 0.0;
     self.is_lit = self.is_clipped || (has_second ? above_first && above_second : normal.z > 0.0);
+
+    // The map is costly to prepare, and seldom needed.
+    if (!self.is_clipped) return self;
 
     // Choose the map of the rim.
     float ratio = hypotenuse(b, c) / hypotenuse(a, c);

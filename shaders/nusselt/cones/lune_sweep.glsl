@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_SWEEP_GLSL
 #define NUSSELT_CONES_LUNE_SWEEP_GLSL
-// Follows include/nusselt/cones/lune_sweep.h @ 8e05ec6674ad
+// Follows include/nusselt/cones/lune_sweep.h @ 42722eda0ff3
 /// Sampling of the part of an elliptic cone between two horizons, in proportion to the cosine at the first one. Twin of
 /// include/nusselt/cones/lune_sweep.h, where the method is described.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_SOLID_SWEEP_GLSL
 #define NUSSELT_CONES_SOLID_SWEEP_GLSL
-// Follows include/nusselt/cones/solid_sweep.h @ 12dd3109d245
+// Follows include/nusselt/cones/solid_sweep.h @ 3c438b399975
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, by solid angle. Twin of
 /// include/nusselt/cones/solid_sweep.h, where the method is described.
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ 2659af858ffa
+// Follows include/nusselt/cones/whole_cone.h @ d4a39e216730
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
