@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -133,6 +134,14 @@ TEST(RoundSurface, LosesNoneOfItsOwnLight) {
     }
 }
 
+/// How much weights of samples may vary. \param slope distance from the lowest point of a sphere over its radius
+double spread_at(double slope) {
+    if (slope > 3) return 1e-5;
+    if (slope > 2) return 2e-4;
+    if (slope > 0.7) return 1e-3;
+    return slope > 0.4 ? 3e-3 : 0.03;
+}
+
 /// A floor point below a sphere that touches the floor sees all of it.
 TEST(RoundSurface, LightsTheFloorThatItTouches) {
     scene::Scene scene = make_floor(kSize);
@@ -142,7 +151,7 @@ TEST(RoundSurface, LightsTheFloorThatItTouches) {
     set_radius(scene);
     const image::Image image = render(scene, 1);
     int count = 0;
-    double sum = 0;
+    double sum = 0, nearest = 1, farthest = 0;
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x) {
             const scene::SightRay ray = ray_of(scene, x, y);
@@ -154,13 +163,20 @@ TEST(RoundSurface, LightsTheFloorThatItTouches) {
             const double distance = std::hypot(p.x, p.y, double{radius});
             const double expected = 3 * double{kFloorAlbedo} * std::pow(double{radius} / distance, 3);
             const double ratio = double{image.pixels[3 * static_cast<std::size_t>(y * kSize + x)]} / expected;
-            // Weights of samples vary a little where a light touches the horizon.
-            EXPECT_NEAR(ratio, 1, 0.03) << x << ' ' << y;
+            // Rounding may put the floor a little above the lowest point of the sphere. Then the horizon cuts it, and weights of
+            // samples vary, more so for wide cones: 16 places of the rim are few for them.
+            const double slope = std::hypot(p.x, p.y) / double{radius};
+            const double spread = spread_at(slope);
+            EXPECT_NEAR(ratio, 1, spread) << x << ' ' << y;
+            nearest = std::min(nearest, slope);
+            farthest = std::max(farthest, slope);
             sum += ratio;
             ++count;
         }
     EXPECT_GT(count, kSize * kSize / 3);
     EXPECT_NEAR(sum / count, 1, 1e-4);
+    EXPECT_LT(nearest, 0.1);
+    EXPECT_GT(farthest, 3);
 }
 
 /// Between a sphere and the floor that cuts it, no pixel is black.
