@@ -1,9 +1,13 @@
 #pragma once
 /// The exact surfaces of round lights where rays hit them.
 
+#include "render_cpu/kernel.h"
 #include "render_cpu/kernel/lanes.h"
 #include "render_cpu/kernel/light_sets.h"
 #include "render_cpu/lights/round_records.h"
+#include "visibility/ray_packets.h"
+
+#include <cstdint>
 
 NUSSELT_NAMESPACE_BEGIN
 namespace kernel {
@@ -17,14 +21,12 @@ struct RoundPoints {
     Real coordinate;         ///< at least as large as those that the position comes from [m]
 };
 
-namespace detail {
-
 /// A linear combination of vectors.
 inline Vec3<float> combine(const Vec3<float>& weights, const scene::Float3* v) noexcept {
     return weights.x * to_vec(v[0]) + weights.y * to_vec(v[1]) + weights.z * to_vec(v[2]);
 }
 
-inline void set_lane(Lanes& lanes, int i, const Vec3<float>& v) noexcept {
+inline void set_vector(Lanes& lanes, int i, const Vec3<float>& v) noexcept {
     lanes.x[i] = v.x;
     lanes.y[i] = v.y;
     lanes.z[i] = v.z;
@@ -34,8 +36,6 @@ inline float largest(const Vec3<float>& v) noexcept {
     const float x = __builtin_fabsf(v.x), y = __builtin_fabsf(v.y), z = __builtin_fabsf(v.z);
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
-
-} // namespace detail
 
 inline RoundPoints round_points(const render_cpu::KernelScene& scene,
                                 const visibility::HitPacket<kLanes>& hits) noexcept {
@@ -55,20 +55,19 @@ inline RoundPoints round_points(const render_cpu::KernelScene& scene,
             record.shape == render_cpu::RoundShape::disk || record.shape == render_cpu::RoundShape::ellipse;
         const Vec3<float> p{hits.unit[0][i], hits.unit[1][i], hits.unit[2][i]};
         const Vec3<float> center = to_vec(record.center);
-        const Vec3<float> offset = detail::combine(p, record.axis);
-        detail::set_lane(position, i, center + offset);
+        const Vec3<float> offset = combine(p, record.axis);
+        set_vector(position, i, center + offset);
         const float front = record.emits_outwards != 0 ? 1.0f : -1.0f;
-        detail::set_lane(normal, i,
-                         is_flat ? to_vec(record.normal) : front * detail::combine(p, record.inverse));
+        set_vector(normal, i, is_flat ? to_vec(record.normal) : front * combine(p, record.inverse));
         const float radius = __builtin_sqrtf(p.x * p.x + p.y * p.y);
         const float cosine = radius > 0 ? p.x / radius : 1.0f;
         const float sine = radius > 0 ? p.y / radius : 0.0f;
-        detail::set_lane(along_u, i, detail::combine({-2 * kPi * p.y, 2 * kPi * p.x, 0}, record.axis));
+        set_vector(along_u, i, combine({-2 * kPi * p.y, 2 * kPi * p.x, 0}, record.axis));
         const Vec3<float> to_pole = is_flat
                                         ? Vec3<float>{-cosine, -sine, 0}
                                         : Vec3<float>{-kPi * p.z * cosine, -kPi * p.z * sine, kPi * radius};
-        detail::set_lane(along_v, i, detail::combine(to_pole, record.axis));
-        coordinate.x[i] = detail::largest(center) + detail::largest(offset);
+        set_vector(along_v, i, combine(to_pole, record.axis));
+        coordinate.x[i] = largest(center) + largest(offset);
     }
     return {LaneMask::from_bits(bits), load(position), load(normal), load(along_u), load(along_v),
             Real::load(coordinate.x)};
