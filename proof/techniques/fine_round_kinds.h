@@ -23,6 +23,11 @@ struct FineRoundOnLobeKind : Coarse {
     template <class Real>
     using Technique = WithLobe<ConeLtc<Real, Shape, kConeSteps<Real>, kFineConePlaces>>;
 };
+template <class Coarse, template <class> class Shape>
+struct FineRoundAboveSurfaceKind : Coarse {
+    template <class Real>
+    using Technique = WithLobe<ConeClippedLtc<Real, Shape, kConeSteps<Real>, kFineConePlaces>>;
+};
 
 struct FineDiskKind : FineRoundKind<DiskProjectedSolidAngleKind, Disk> {
     static constexpr const char* kName = "FineDiskProjectedSolidAngle";
@@ -42,10 +47,17 @@ struct FineSphereOnLobeKind : FineRoundOnLobeKind<SphereLtcKind, Sphere> {
 struct FineEllipseOnLobeKind : FineRoundOnLobeKind<EllipseLtcKind, Ellipse> {
     static constexpr const char* kName = "FineEllipseLtc";
 };
+struct FineDiskAboveSurfaceKind : FineRoundAboveSurfaceKind<DiskClippedLtcKind, Disk> {
+    static constexpr const char* kName = "FineDiskClippedLtc";
+};
+struct FineEllipsoidAboveSurfaceKind : FineRoundAboveSurfaceKind<EllipsoidClippedLtcKind, Ellipsoid> {
+    static constexpr const char* kName = "FineEllipsoidClippedLtc";
+};
 
 /// Flat and solid shapes in turn: what lies between a cone and its samples does not depend on the shape.
 using FineRoundKinds = KindList<FineDiskKind, FineEllipsoidKind, FineClippedSphereKind,
-                                FineClippedEllipseKind, FineSphereOnLobeKind, FineEllipseOnLobeKind>;
+                                FineClippedEllipseKind, FineSphereOnLobeKind, FineEllipseOnLobeKind,
+                                FineDiskAboveSurfaceKind, FineEllipsoidAboveSurfaceKind>;
 
 } // namespace hostile
 NUSSELT_NAMESPACE_END
