@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 namespace nusselt::visibility {
 
@@ -47,10 +46,8 @@ QueryGeometry make_query_geometry(const scene::Scene& scene) {
     };
     add_instance(0);
     for (const scene::Instance& instance : scene.instances) add_instance(instance.object + 1);
-    // Vulkan leaves out boxes without numbers.
-    std::array<float, 6> no_box;
-    no_box.fill(std::numeric_limits<float>::quiet_NaN());
-    geometry.round_boxes.resize(scene.lights.of<scene::RoundLight>().size(), no_box);
+    // Vulkan would leave out boxes without numbers, but Mesa's software driver then loses the others.
+    geometry.round_boxes.resize(scene.lights.of<scene::RoundLight>().size());
     for (const RoundSurface& surface : make_round_surfaces(scene)) {
         auto& box = geometry.round_boxes[surface.round_light];
         std::copy(surface.lower.begin(), surface.lower.end(), box.begin());

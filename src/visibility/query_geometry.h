@@ -22,8 +22,8 @@ struct QueryGeometry {
     /// Number 0 is the world, number i + 1 Scene::instances[i]; shaders use these numbers for them.
     std::vector<interface::QueryInstance> instances;
     std::vector<std::uint32_t> partial_triangles; ///< indices into Scene::triangles
-    /// Lower and upper corners, one box for each round light of the scene in place of its triangles; NaN for lights that
-    /// rays do not meet.
+    /// Lower and upper corners, one box for each round light of the scene in place of its triangles; a point, the origin,
+    /// for lights that rays do not meet.
     std::vector<std::array<float, 6>> round_boxes;
 };
 

@@ -58,6 +58,8 @@ bool meets_crossing(const ShadowRay ray, uint light, vec3 point, int i) {
 
 /// Whether a round light lies between the ends of a shadow ray.
 bool hits_round(const ShadowRay ray, uint light) {
+    // Ray queries have a box for lights that rays do not meet, too: a point.
+    if (round_lights[light].triangle == kNoTriangle) return false;
     UnitRay unit = unit_ray(light, ray.origin, ray.direction);
     uint in_way = crossings_in_way(light, unit, ray.t_far);
     if (!kHasPartial || round_lights[light].is_partial == 0u) return in_way != 0u;
