@@ -317,7 +317,8 @@ private:
         const Vec2<Real> on_rim =
             from_farthest({factor * multiply_add(t, far_cosine, Real(1)), factor * t * far_sine});
         const Vec2<Real> chord = select(is_inside_, rim - inner_, on_rim);
-        turn.near_end = rim - chord;
+        // The difference would lose the digits of a pole in the middle of a wide cone.
+        turn.near_end = select(is_inside_, inner_, rim - chord);
         turn.far_length = length_of(rim);
         turn.near_length = length_of(turn.near_end);
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ edf2eb055db8
+// Follows include/nusselt/cones/lune_map.h @ 63f61cedde00
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -222,7 +222,8 @@ void lune_map_add_chord(const LuneMap self, inout LuneTurn turn, float far_cosin
     vec2 chord = rim - self.inner;
     if (!self.is_inside)
         chord = lune_map_from_farthest(self, factor * vec2(nusselt_fma(t, far_cosine, 1.0), t * far_sine));
-    vec2 near_end = rim - chord;
+    // The difference would lose the digits of a pole in the middle of a wide cone.
+    vec2 near_end = self.is_inside ? self.inner : rim - chord;
     turn.near_end = near_end;
     turn.far_length = lune_map_length(self, rim);
     turn.near_length = lune_map_length(self, near_end);

@@ -477,6 +477,29 @@ void expect_dark(const Technique& technique) {
     }
 }
 
+/// The sample of a wide ellipse, closer than a thousandth of its size, that a line of both horizons passes in the middle.
+template <class T>
+nusselt::LightSample<T> sample_of_wide_ellipse(const Vec2<T>& u) {
+    // Both precisions have the numbers of float.
+    const auto vector = [](float x, float y, float z) { return nusselt::Vec3<T>{T(x), T(y), T(z)}; };
+    const Ellipse<T> light{vector(-7.2114e-4f, 1.60053e-3f, 2.284925e-3f),
+                           vector(1.412022f, -0.490028f, -0.0749328f),
+                           vector(-0.186836f, -0.368444f, -1.111248f)};
+    const nusselt::Ltc<T> ltc({T(0.68521f), T(0.751082f), T(0.263783f), T(-0.848221f), T(0.529642f), T(1)});
+    return clipped(light, ltc).sample(u);
+}
+
+TEST(ConeClippedLtcTest, FarEndsOfHalfPlanesKeepTheirDigitsInWideCones) {
+    // A near end from a difference to the far end would be off by 5e-4 here.
+    for (const float x : {0.1f, 0.5f, 0.9f, 0.9999999f})
+        for (const float y : {0.5f, 0.9f, 0.9999999f}) {
+            const auto single = sample_of_wide_ellipse<float>({x, y});
+            const auto exact = sample_of_wide_ellipse<double>({x, y});
+            const nusselt::Vec3<double> wi{single.wi.x, single.wi.y, single.wi.z};
+            EXPECT_LT(length(wi - exact.wi), 1e-5) << x << " " << y;
+        }
+}
+
 TEST(ConeClippedLtcTest, LightsBelowTheSurfaceAreDark) {
     // The lobe reaches below the surface, so that ConeLtc sees the first of them.
     const auto ltc = lobe_of<float>(tilted_lobe(1.2L, 0.8L, 1.1L, 0));
