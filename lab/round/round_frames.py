@@ -3,9 +3,9 @@
 
 Usage: lab/round/round_frames.py [--program NUSSELT] [--repetitions N] [--spp N]
 
-The light is 1 m wide and stands above a floor that is matte or glossy. Flat lights shine to both sides, so that all of the floor
-has light of each. Prints the medians of processor time of whole runs on
-one thread, in which the floor takes most of the time, and their ratios to the quad.
+The light is 1 m wide and stands above a floor that is matte or glossy. Flat lights shine to both sides, so that all of
+the floor has light of each. Prints the medians of processor time of whole runs on one thread, in which the floor takes
+most of the time, and their ratios to the quad.
 """
 
 import argparse
