@@ -4,6 +4,7 @@
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/cones/rim_angles.h>
 #include <nusselt/cones/rim_map.h>
 #include <nusselt/core/trig.h>
 
@@ -100,17 +101,13 @@ public:
         if (!any(is_clipped_)) return;
 
         // Choose the map of the rim.
-        const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);
-        squeeze_ = sqrt(ratio * sqrt(ratio));
-        const Vec2<Real> squeezed{farthest_.x, squeeze_ * farthest_.y};
-        mid_length_ = detail::hypotenuse(squeezed.x, squeezed.y);
-        mid_ = (Real(1) / mid_length_) * squeezed;
+        angles_ = RimAngles<Real>(a_, b_, c_, farthest_);
         const Real length = length_of(farthest_);
         const Real along = component(farthest_, basis_p_) / length;
         const Real across =
             detail::hypotenuse(component(farthest_, basis_h_), component(farthest_, basis_n_)) / length;
         const Real versine = detail::versine(across, -along);
-        stretch_ = Real(1) / sqrt(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
+        angles_.set_stretch(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
 
         // The rim from the first horizon, or where the first half-plane touches it, to the second horizon.
         starts_at_horizon_ = first_cut.is_met;
@@ -125,14 +122,14 @@ public:
         // A pole on the rim is where half-planes touch, at half a turn from the farthest point: on the side of the
         // start.
         half.sin = copysign(half.sin, select(starts_at_horizon_, half.sin, -turn_sign_));
-        begin_ = angle_of(half);
+        begin_ = angles_.angle_of(half);
         const Real inverse_half = Real(1) / detail::hypotenuse(half.sin, half.cos);
         start_sine_ = inverse_half * half.sin;
         start_cosine_ = inverse_half * half.cos;
-        start_scale_ = detail::hypotenuse(stretch_ * start_cosine_, start_sine_);
+        start_scale_ = detail::hypotenuse(angles_.stretch * start_cosine_, start_sine_);
         // The length of diag(squeeze, 1) times the unit vector that leads to the start.
-        start_squeezed_ = squeeze_ / detail::hypotenuse(start_.x, squeeze_ * start_.y);
-        const Real range = turn_sign_ * (angle_of(half_angle_at(second_cut.end)) - begin_);
+        start_squeezed_ = angles_.squeeze / detail::hypotenuse(start_.x, angles_.squeeze * start_.y);
+        const Real range = turn_sign_ * (angles_.angle_of(half_angle_at(second_cut.end)) - begin_);
         const auto wraps = is_inside_ & (range < Real(0));
         half_range_ = Real(0.5) * max(select(wraps, range + Real(2 * kPi<Scalar>), range), Real(0));
     }
@@ -156,31 +153,21 @@ public:
     NUSSELT_HD Turn turned(const Real& z) const noexcept {
         Turn turn;
         turn.z = z;
-        // Undo the stretch of half-angles.
         const auto way = sincos_half_turn(half_range_ * (Real(0.5) * (z + Real(1))));
         const Real signed_sine = turn_sign_ * way.sin;
-        const Real x = stretch_ * (start_cosine_ * way.cos - start_sine_ * signed_sine);
+        const Real x = angles_.stretch * (start_cosine_ * way.cos - start_sine_ * signed_sine);
         const Real s = start_sine_ * way.cos + start_cosine_ * signed_sine;
-        const Real squared = multiply_add(x, x, s * s);
-        const Real inverse = Real(1) / squared;
-        const Real cosine = (x - s) * (x + s) * inverse;
-        const Real sine = Real(2) * x * s * inverse;
-
-        // Undo the squeeze.
-        const Vec2<Real> turned{mid_.x * cosine - mid_.y * sine, mid_.y * cosine + mid_.x * sine};
-        const Vec2<Real> angle{squeeze_ * turned.x, turned.y};
-        const Real squared_length = dot(angle, angle);
-        const Real inverse_length = Real(1) / sqrt(squared_length);
-        const Vec2<Real> rim = inverse_length * angle;
+        const auto point = angles_.at(x, s);
+        const Vec2<Real> rim = point.inverse_length * point.scaled;
         turn.far_end = rim;
-        turn.jacobian = (stretch_ * inverse) * (squeeze_ * inverse_length * inverse_length);
+        turn.jacobian = point.jacobian;
 
         // The angle in the disk from the start, accurate relative to itself.
-        const Real per_scale = sqrt(inverse) / start_scale_;
-        const Real half_sine = stretch_ * way.sin * per_scale;
-        const Real half_cosine = (x * (stretch_ * start_cosine_) + s * start_sine_) * per_scale;
+        const Real per_scale = sqrt(point.inverse_norm) / start_scale_;
+        const Real half_sine = angles_.stretch * way.sin * per_scale;
+        const Real half_cosine = (x * (angles_.stretch * start_cosine_) + s * start_sine_) * per_scale;
         const Real from_sine =
-            squeeze_ * Real(2) * half_sine * half_cosine * inverse_length / start_squeezed_;
+            angles_.squeeze * Real(2) * half_sine * half_cosine * point.inverse_length / start_squeezed_;
         const Real from_cosine = dot(rim, start_);
         const auto obtuse = from_cosine < Real(0);
         const Real root = sqrt(max(Real(0.5) * (Real(1) + abs(from_cosine)), Real(0.5)));
@@ -228,7 +215,7 @@ public:
         const Real x = select(norm > Real(0), aside * inverse, Real(1)), y = up * inverse;
         const Vec3<Real> normal = x * basis_n_ - y * basis_h_;
         const Chord chord = chord_of(normal, x * basis_h_ + y * basis_n_);
-        Real t = turn_sign_ * (angle_of(half_angle_at(chord.end)) - begin_);
+        Real t = turn_sign_ * (angles_.angle_of(half_angle_at(chord.end)) - begin_);
         const Real full = Real(2) * half_range_;
         const Real wrapped = t + Real(2 * kPi<Scalar>);
         const auto wraps = is_inside_ & (t < Real(0)) & (wrapped - full < -t);
@@ -244,7 +231,7 @@ public:
 private:
     /// Where a plane through the pole cuts the rim.
     struct Chord {
-        mask_t<Real> is_cut; ///< by the plane
+        mask_t<Real> is_cut; ///< by the plane, which does more than touch it up to rounding
         mask_t<Real> is_met; ///< by the half-plane
         Vec2<Real> end;      ///< the end that is farther from the pole
         Real height;         ///< of the axis above the plane in the disk
@@ -258,13 +245,15 @@ private:
         Chord chord;
         const Real na = a_ * normal.x, nb = b_ * normal.y, nc = c_ * normal.z;
         const Real k = detail::hypotenuse(na, nb);
-        chord.is_cut = abs(nc) < k;
-        chord.steepness = select(chord.is_cut, k, Real(1));
+        const auto crosses = abs(nc) < k;
+        chord.steepness = select(crosses, k, Real(1));
         const Real inverse = Real(1) / chord.steepness;
-        const Vec2<Real> up{select(chord.is_cut, na * inverse, Real(1)),
-                            select(chord.is_cut, nb * inverse, Real(0))};
+        const Vec2<Real> up{select(crosses, na * inverse, Real(1)), select(crosses, nb * inverse, Real(0))};
         chord.height = min(max(nc * inverse, Real(-1)), Real(1));
         const auto gaps = detail::horizon_gaps({a_, b_, c_}, normal, chord.steepness);
+        // Where a plane touches the rim at the pole, rounding would choose the side of the pole on which its end is.
+        constexpr Scalar kTouching = std::numeric_limits<Scalar>::epsilon() / 4;
+        chord.is_cut = crosses & (gaps.smaller > Real(kTouching));
         chord.half = sqrt(max(gaps.smaller * gaps.larger, Real(0)));
         const Vec2<Real> middle{-chord.height * up.x, -chord.height * up.y};
         const Vec2<Real> along{-chord.half * up.y, chord.half * up.x};
@@ -292,16 +281,7 @@ private:
 
     /// Half of the angle of the map of a point of the rim: a vector of any length.
     NUSSELT_HD SinCos<Real> half_angle_at(const Vec2<Real>& rim) const noexcept {
-        const Vec2<Real> squeezed{rim.x, squeeze_ * rim.y};
-        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
-        const Real x = dot(squeezed, mid_);
-        const Real cross = farthest_.x * rim.y - farthest_.y * rim.x;
-        const Real y = squeeze_ * abs(cross) / mid_length_;
-        const auto wide = x < Real(0);
-        return {copysign(stretch_ * select(wide, length - x, y), cross), select(wide, y, length + x)};
-    }
-    NUSSELT_HD static Real angle_of(const SinCos<Real>& half) noexcept {
-        return copysign(Real(2) * atan2_positive(abs(half.sin), half.cos), half.sin);
+        return angles_.half_of(rim, farthest_.x * rim.y - farthest_.y * rim.x);
     }
 
     /// What a half-plane has of the cone, from its far end.
@@ -351,9 +331,7 @@ private:
     Real tangent_cosine_; ///< of the angle between the pole and the points at which half-planes touch the rim
     Vec3<Real> basis_h_, basis_p_, basis_n_; ///< h, pole and normal in the basis of the cone
     mask_t<Real> is_clipped_, is_lit_;
-    Real squeeze_, stretch_;
-    Vec2<Real> mid_; ///< the farthest point after the squeeze
-    Real mid_length_;
+    RimAngles<Real> angles_;         ///< from the farthest point
     mask_t<Real> starts_at_horizon_; ///< else where the first half-plane touches the rim
     Vec2<Real> start_;
     Real level_cosine_,
@@ -368,10 +346,10 @@ private:
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.a_, self.b_, self.c_, self.pole_, self.h_, self.turn_sign_, self.pole_scale_, self.away_,
               self.level_, self.is_inside_, self.farthest_, self.inner_, self.tangent_cosine_, self.basis_h_,
-              self.basis_p_, self.basis_n_, self.is_clipped_, self.is_lit_, self.squeeze_, self.stretch_,
-              self.mid_, self.mid_length_, self.starts_at_horizon_, self.start_, self.level_cosine_,
-              self.level_sine_, self.horizon_, self.begin_, self.half_range_, self.start_sine_,
-              self.start_cosine_, self.start_scale_, self.start_squeezed_);
+              self.basis_p_, self.basis_n_, self.is_clipped_, self.is_lit_, self.angles_,
+              self.starts_at_horizon_, self.start_, self.level_cosine_, self.level_sine_, self.horizon_,
+              self.begin_, self.half_range_, self.start_sine_, self.start_cosine_, self.start_scale_,
+              self.start_squeezed_);
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/cones/rim_angles.h>
 #include <nusselt/geometry/precise_products.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -124,15 +125,11 @@ public:
         along_up_ = dot(p, upwards);
 
         // Choose the map of the rim.
-        const Real ratio = detail::hypotenuse(b_, c_) / detail::hypotenuse(a_, c_);
-        squeeze_ = sqrt(ratio * sqrt(ratio));
-        const Vec2<Real> squeezed{up_.x, squeeze_ * up_.y};
-        mid_length_ = detail::hypotenuse(squeezed.x, squeezed.y);
-        mid_ = (Real(1) / mid_length_) * squeezed;
+        angles_ = RimAngles<Real>(a_, b_, c_, up_);
         const Rim top = rim_at({Real(0), Real(1)}, upper);
         const Real cosine = max(top.along / top.length, Real(-1));
-        stretch_ = Real(1) / sqrt(max(Real(0.5) * (Real(1) + cosine),
-                                      Real(64 * std::numeric_limits<Scalar>::epsilon())));
+        angles_.set_stretch(
+            max(Real(0.5) * (Real(1) + cosine), Real(64 * std::numeric_limits<Scalar>::epsilon())));
         left_ = angle_at({-half_arc, -height_});
         const Real right = angle_at({half_arc, -height_});
         half_range_ = Real(0.5) * (right - left_);
@@ -171,22 +168,11 @@ public:
 
     /// \param z in [-1, 1]
     NUSSELT_HD Turn turned(const Real& z) const noexcept {
-        // Undo the stretch of half-angles.
         const Real zeta = multiply_add(half_range_, z + Real(1), left_);
         const auto half = sincos_quarter_turn_with_sign(Real(0.5) * zeta);
-        const Real x = stretch_ * half.cos;
-        const Real squared = multiply_add(x, x, half.sin * half.sin);
-        const Real inverse = Real(1) / squared;
-        const Real cosine = (x - half.sin) * (x + half.sin) * inverse;
-        const Real sine = Real(2) * x * half.sin * inverse;
-
-        // Undo the squeeze. The sine of the angle from the highest point is accurate relative to itself.
-        const Vec2<Real> turned{mid_.x * cosine - mid_.y * sine, mid_.y * cosine + mid_.x * sine};
-        const Vec2<Real> angle{squeeze_ * turned.x, turned.y};
-        const Real squared_length = dot(angle, angle);
-        const Real inverse_length = Real(1) / sqrt(squared_length);
-        const Real across = inverse_length * mid_length_ * sine;
-        const Real up = inverse_length * (angle.x * up_.x + angle.y * up_.y);
+        const auto point = angles_.at(angles_.stretch * half.cos, half.sin);
+        const Real across = point.across;
+        const Real up = point.inverse_length * (point.scaled.x * up_.x + point.scaled.y * up_.y);
 
         // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
         const auto below = up < Real(0);
@@ -200,7 +186,7 @@ public:
         result.z = z;
         result.rim = rim_at({across, up}, clearance);
         result.clearance = clearance;
-        result.jacobian = (stretch_ * inverse) * (squeeze_ * inverse_length * inverse_length);
+        result.jacobian = point.jacobian;
         return result;
     }
 
@@ -228,7 +214,13 @@ public:
         const Real offset = rim.disk.x - pole_;
         const Real volume =
             Real(0.5) * multiply_add(offset, offset, multiply_add(turn.clearance, turn.clearance, power_));
-        return volume * turn.jacobian / (rim.length * (rim.length * (Real(1) + cosine_of(rim))));
+        // The length of the ray plus its part along the pole, from the square of its sine where they cancel.
+        const auto back = rim.along < Real(0);
+        const Real squared = multiply_add(rim.aside, rim.aside, rim.up * rim.up);
+        const Real sum =
+            select(back, squared, rim.length + rim.along) / select(back, rim.length - rim.along, Real(1));
+        const Real least = Real(4 * std::numeric_limits<Scalar>::epsilon()) * rim.length;
+        return volume * turn.jacobian / (rim.length * max(sum, least));
     }
     /// The solid angle of the sweep over the integral of solid_density() over z.
     NUSSELT_HD Real solid_scale() const noexcept { return narrowing_ * slope_ * half_range_; }
@@ -284,17 +276,8 @@ private:
 
     /// The angle of the map of a point of the rim, given across and up from the axis.
     NUSSELT_HD Real angle_at(const Vec2<Real>& point) const noexcept {
-        // Turned by the squeeze, sine and cosine are those below, up to a common factor.
         const Vec2<Real> turned{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
-        const Vec2<Real> squeezed{turned.x, squeeze_ * turned.y};
-        const Real length = detail::hypotenuse(squeezed.x, squeezed.y);
-        const Real x = dot(squeezed, mid_);
-        const Real y = squeeze_ * abs(point.x) / mid_length_;
-        // The tangent of the half of the angle, from the sum that does not cancel.
-        const auto wide = x < Real(0);
-        const Real angle =
-            Real(2) * atan2_positive(stretch_ * select(wide, length - x, y), select(wide, y, length + x));
-        return copysign(angle, point.x);
+        return angles_.angle_of(angles_.half_of(turned, point.x));
     }
 
     NUSSELT_HD static SinCos<Real> sincos_quarter_turn_with_sign(const Real& angle) noexcept {
@@ -312,10 +295,8 @@ private:
     Real distance_;        ///< of the pole, as a point of the cone
     Vec3<Real> p_, h_;     ///< unit and horizontal: to the pole, and perpendicular to it
     Real shear_, narrowing_, slope_, along_across_, along_up_; ///< from the disk to p, h and n
-    Real squeeze_, stretch_;
-    Vec2<Real> mid_; ///< the highest point after the squeeze
-    Real mid_length_;
-    Real left_, half_range_; ///< angles of the map
+    RimAngles<Real> angles_;                                   ///< from the highest point
+    Real left_, half_range_;                                   ///< angles of the map
     mask_t<Real> is_cut_;
 
     friend struct detail::Members;
@@ -323,8 +304,7 @@ private:
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.gap_, self.squared_tangent_, self.pole_,
               self.power_, self.distance_, self.p_, self.h_, self.shear_, self.narrowing_, self.slope_,
-              self.along_across_, self.along_up_, self.squeeze_, self.stretch_, self.mid_, self.mid_length_,
-              self.left_, self.half_range_, self.is_cut_);
+              self.along_across_, self.along_up_, self.angles_, self.left_, self.half_range_, self.is_cut_);
     }
 };
 

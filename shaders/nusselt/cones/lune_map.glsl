@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ 63f61cedde00
+// Follows include/nusselt/cones/lune_map.h @ 0619105c2929
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -22,10 +22,8 @@ struct LuneMap {
     vec3 basis_h, basis_p, basis_n; ///< h, pole and normal in the basis of the cone
     bool is_clipped;         ///< whether the second horizon cuts the part of the cone above the first one
     bool is_lit;             ///< whether anything of the cone is above both horizons
-    float squeeze, stretch;
-    vec2 mid; ///< the farthest point after the squeeze
-    float mid_length;
-    bool starts_at_horizon; ///< else where the first half-plane touches the rim
+    RimAngles angles;        ///< from the farthest point
+    bool starts_at_horizon;  ///< else where the first half-plane touches the rim
     vec2 start;
     vec2 level_turn;         ///< sine and cosine of half of the arc that the first horizon, or the pole's polar line, cuts off
     float horizon;           ///< height above the first horizon per height in the disk
@@ -52,7 +50,7 @@ struct LuneTurn {
 
 /// Where a plane through the pole cuts the rim.
 struct LuneChord {
-    bool is_cut;     ///< by the plane
+    bool is_cut;     ///< by the plane, which does more than touch it up to rounding
     bool is_met;     ///< by the half-plane
     vec2 end;        ///< the end that is farther from the pole
     float height;    ///< of the axis above the plane in the disk
@@ -84,16 +82,7 @@ vec2 lune_map_from_farthest(const LuneMap self, vec2 v) {
 
 /// Half of the angle of the map of a point of the rim: sine and cosine times any length.
 vec2 lune_map_half_angle(const LuneMap self, vec2 rim) {
-    vec2 squeezed = vec2(rim.x, self.squeeze * rim.y);
-    float len = hypotenuse(squeezed.x, squeezed.y);
-    float x = dot(squeezed, self.mid);
-    float across = self.farthest.x * rim.y - self.farthest.y * rim.x;
-    float y = self.squeeze * abs(across) / self.mid_length;
-    return vec2(copysign(self.stretch * (x < 0.0 ? len - x : y), across), x < 0.0 ? y : len + x);
-}
-
-float lune_angle_of(vec2 half_turn) {
-    return copysign(2.0 * atan2_positive(abs(half_turn.x), half_turn.y), half_turn.x);
+    return rim_angles_half_of(self.angles, rim, self.farthest.x * rim.y - self.farthest.y * rim.x);
 }
 
 /// \param normal of the plane, in the basis of the cone.
@@ -102,13 +91,15 @@ LuneChord lune_map_chord(const LuneMap self, vec3 normal, vec3 out_of) {
     LuneChord chord;
     vec3 n = self.lengths * normal;
     float k = hypotenuse(n.x, n.y);
-    chord.is_cut = abs(n.z) < k;
-    chord.steepness = chord.is_cut ? k : 1.0;
+    bool crosses = abs(n.z) < k;
+    chord.steepness = crosses ? k : 1.0;
     float inverse = 1.0 / chord.steepness;
-    vec2 up = chord.is_cut ? inverse * n.xy : vec2(1.0, 0.0);
+    vec2 up = crosses ? inverse * n.xy : vec2(1.0, 0.0);
     chord.height = nusselt_min(nusselt_max(n.z * inverse, -1.0), 1.0);
     float smaller, larger;
     horizon_gaps(self.lengths, normal, chord.steepness, smaller, larger);
+    // Where a plane touches the rim at the pole, rounding would choose the side of the pole on which its end is.
+    chord.is_cut = crosses && smaller > 0.25 * kNusseltEpsilon;
     chord.half_size = sqrt(nusselt_max(smaller * larger, 0.0));
     vec2 middle = -chord.height * up;
     vec2 along = chord.half_size * vec2(-up.y, up.x);
@@ -172,17 +163,13 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     if (!self.is_clipped) return self;
 
     // Choose the map of the rim.
-    float ratio = hypotenuse(b, c) / hypotenuse(a, c);
-    self.squeeze = sqrt(ratio * sqrt(ratio));
-    vec2 squeezed = vec2(self.farthest.x, self.squeeze * self.farthest.y);
-    self.mid_length = hypotenuse(squeezed.x, squeezed.y);
-    self.mid = (1.0 / self.mid_length) * squeezed;
+    self.angles = make_rim_angles(self.lengths, self.farthest);
     float len = lune_map_length(self, self.farthest);
     float along = lune_map_component(self, self.farthest, self.basis_p) / len;
     float across = hypotenuse(lune_map_component(self, self.farthest, self.basis_h),
                               lune_map_component(self, self.farthest, self.basis_n)) /
                    len;
-    self.stretch = 1.0 / sqrt(nusselt_max(0.5 * versine_of(across, -along), kNusseltTiny));
+    rim_angles_set_stretch(self.angles, nusselt_max(0.5 * versine_of(across, -along), kNusseltTiny));
 
     // The rim from the first horizon, or where the first half-plane touches it, to the second horizon.
     self.starts_at_horizon = first_cut.is_met;
@@ -195,12 +182,12 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     vec2 half_turn = lune_map_half_angle(self, self.start);
     // A pole on the rim is where half-planes touch, at half a turn from the farthest point: on the side of the start.
     half_turn.x = copysign(half_turn.x, self.starts_at_horizon ? half_turn.x : -self.turn_sign);
-    self.begin = lune_angle_of(half_turn);
+    self.begin = rim_angle_of(half_turn);
     self.start_half = (1.0 / hypotenuse(half_turn.x, half_turn.y)) * half_turn;
-    self.start_scale = hypotenuse(self.stretch * self.start_half.y, self.start_half.x);
+    self.start_scale = hypotenuse(self.angles.stretch * self.start_half.y, self.start_half.x);
     // The length of diag(squeeze, 1) times the unit vector that leads to the start.
-    self.start_squeezed = self.squeeze / hypotenuse(self.start.x, self.squeeze * self.start.y);
-    float range = self.turn_sign * (lune_angle_of(lune_map_half_angle(self, second_cut.end)) - self.begin);
+    self.start_squeezed = self.angles.squeeze / hypotenuse(self.start.x, self.angles.squeeze * self.start.y);
+    float range = self.turn_sign * (rim_angle_of(lune_map_half_angle(self, second_cut.end)) - self.begin);
     if (self.is_inside && range < 0.0) range += 2.0 * kNusseltPi;
     self.half_range = 0.5 * nusselt_max(range, 0.0);
     return self;
@@ -247,27 +234,21 @@ void lune_map_add_chord(const LuneMap self, inout LuneTurn turn, float far_cosin
 LuneTurn lune_map_turned(const LuneMap self, float z) {
     LuneTurn turn;
     turn.z = z;
-    // Undo the stretch of half-angles.
     SinCos way = sincos_half_turn(self.half_range * (0.5 * (z + 1.0)));
     float signed_sine = self.turn_sign * way.sine;
-    float x = self.stretch * (self.start_half.y * way.cosine - self.start_half.x * signed_sine);
+    float x = self.angles.stretch * (self.start_half.y * way.cosine - self.start_half.x * signed_sine);
     float s = self.start_half.x * way.cosine + self.start_half.y * signed_sine;
-    float inverse = 1.0 / nusselt_fma(x, x, s * s);
-    float cosine = (x - s) * (x + s) * inverse;
-    float sine = 2.0 * x * s * inverse;
-
-    // Undo the squeeze.
-    vec2 angle = vec2(self.squeeze, 1.0) * (cosine * self.mid + sine * vec2(-self.mid.y, self.mid.x));
-    float inverse_length = 1.0 / sqrt(dot(angle, angle));
-    vec2 rim = inverse_length * angle;
+    RimAnglesPoint point = rim_angles_at(self.angles, x, s);
+    vec2 rim = point.inverse_length * point.scaled;
     turn.far_end = rim;
-    turn.jacobian = (self.stretch * inverse) * (self.squeeze * inverse_length * inverse_length);
+    turn.jacobian = point.jacobian;
 
     // The angle in the disk from the start, accurate relative to itself.
-    float per_scale = sqrt(inverse) / self.start_scale;
-    float half_sine = self.stretch * way.sine * per_scale;
-    float half_cosine = (x * (self.stretch * self.start_half.y) + s * self.start_half.x) * per_scale;
-    float from_sine = self.squeeze * 2.0 * half_sine * half_cosine * inverse_length / self.start_squeezed;
+    float per_scale = sqrt(point.inverse_norm) / self.start_scale;
+    float half_sine = self.angles.stretch * way.sine * per_scale;
+    float half_cosine = (x * (self.angles.stretch * self.start_half.y) + s * self.start_half.x) * per_scale;
+    float from_sine =
+        self.angles.squeeze * 2.0 * half_sine * half_cosine * point.inverse_length / self.start_squeezed;
     float from_cosine = dot(rim, self.start);
     float root = sqrt(nusselt_max(0.5 * (1.0 + abs(from_cosine)), 0.5));
     float other = 0.5 * from_sine / root;
@@ -310,7 +291,7 @@ float lune_map_place_of(const LuneMap self, vec3 wi) {
     away = norm > 0.0 ? away * (1.0 / norm) : vec2(1.0, 0.0);
     vec3 normal = away.x * self.basis_n - away.y * self.basis_h;
     vec2 end = lune_map_chord(self, normal, away.x * self.basis_h + away.y * self.basis_n).end;
-    float t = self.turn_sign * (lune_angle_of(lune_map_half_angle(self, end)) - self.begin);
+    float t = self.turn_sign * (rim_angle_of(lune_map_half_angle(self, end)) - self.begin);
     float wrapped = t + 2.0 * kNusseltPi;
     if (self.is_inside && t < 0.0 && wrapped - 2.0 * self.half_range < -t) t = wrapped;
     return nusselt_min(nusselt_max(over_positive(t, self.half_range) - 1.0, -1.0), 1.0);

@@ -1,11 +1,12 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 69743d2c5d33
+// Follows include/nusselt/cones/rim_map.h @ c0b0f0edc8a3
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
 #include "../cones/cycloid.glsl"
 #include "../cones/elliptic_cone.glsl"
+#include "../cones/rim_angles.glsl"
 #include "../geometry/precise_products.glsl"
 
 /// 1 minus the cosine of an angle in [0, pi), relative to itself.
@@ -23,9 +24,7 @@ struct RimMap {
     float len;             ///< of the pole, as a point of the cone
     vec3 p, h;             ///< unit and horizontal: to the pole, and perpendicular to it
     float shear, narrowing, slope, along_across, along_up; ///< from the disk to p, h and n
-    float squeeze, stretch;
-    vec2 mid; ///< the highest point after the squeeze
-    float mid_length;
+    RimAngles angles;       ///< from the highest point
     float left, half_range; ///< angles of the map
     bool is_cut;
 };
@@ -64,23 +63,14 @@ RimPoint rim_map_point(const RimMap self, vec2 disk, float clearance) {
     return rim;
 }
 
-/// The angle of the map at a point of the rim, after the squeeze and the stretch.
-/// \param point in the disk, in the basis of the axes.
-/// \param across sine of its angle from the highest point.
-float rim_map_angle(const RimMap self, vec2 point, float across) {
-    vec2 squeezed = vec2(point.x, self.squeeze * point.y);
-    float len = hypotenuse(squeezed.x, squeezed.y);
-    float x = dot(squeezed, self.mid);
-    float y = self.squeeze * abs(across) / self.mid_length;
-    // The tangent of the half of the angle, from the sum that does not cancel.
-    float opposite = x < 0.0 ? len - x : y;
-    float adjacent = x < 0.0 ? y : len + x;
-    return copysign(2.0 * atan2_positive(self.stretch * opposite, adjacent), across);
-}
-
 /// The point of the disk, in the basis of the axes, at a place across and up.
 vec2 rim_map_from_up(const RimMap self, vec2 disk) {
     return vec2(disk.y * self.up.x - disk.x * self.up.y, disk.y * self.up.y + disk.x * self.up.x);
+}
+
+/// The angle of the map of a point of the rim, given across and up from the axis.
+float rim_map_angle(const RimMap self, vec2 point) {
+    return rim_angle_of(rim_angles_half_of(self.angles, rim_map_from_up(self, point), point.x));
 }
 
 /// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but
@@ -158,16 +148,12 @@ RimMap make_rim_map(const EllipticCone cone) {
     self.along_up = dot(p, upwards);
 
     // Choose the map of the rim.
-    float ratio = hypotenuse(self.b, self.c) / hypotenuse(self.a, self.c);
-    self.squeeze = sqrt(ratio * sqrt(ratio));
-    vec2 squeezed = vec2(self.up.x, self.squeeze * self.up.y);
-    self.mid_length = hypotenuse(squeezed.x, squeezed.y);
-    self.mid = (1.0 / self.mid_length) * squeezed;
+    self.angles = make_rim_angles(vec3(self.a, self.b, self.c), self.up);
     RimPoint top = rim_map_point(self, vec2(0.0, 1.0), upper);
     float cosine = nusselt_max(top.cosine, -1.0);
-    self.stretch = 1.0 / sqrt(nusselt_max(0.5 * (1.0 + cosine), 64.0 * kNusseltEpsilon));
-    self.left = rim_map_angle(self, rim_map_from_up(self, vec2(-half_arc, -self.height)), -half_arc);
-    float right = rim_map_angle(self, rim_map_from_up(self, vec2(half_arc, -self.height)), half_arc);
+    rim_angles_set_stretch(self.angles, nusselt_max(0.5 * (1.0 + cosine), 64.0 * kNusseltEpsilon));
+    self.left = rim_map_angle(self, vec2(-half_arc, -self.height));
+    float right = rim_map_angle(self, vec2(half_arc, -self.height));
     self.half_range = 0.5 * (right - self.left);
     return self;
 }
@@ -183,20 +169,12 @@ vec2 rim_map_towards(const RimMap self, const RimPoint rim, float share) {
 
 /// \param z in [-1, 1]
 RimTurn rim_map_turned(const RimMap self, float z) {
-    // Undo the stretch of half-angles.
     float half_zeta = 0.5 * nusselt_fma(self.half_range, z + 1.0, self.left);
     SinCos turn = sincos_half_turn(abs(half_zeta));
-    float half_sine = copysign(abs(turn.sine), half_zeta);
-    float x = self.stretch * nusselt_max(turn.cosine, 0.0);
-    float inverse = 1.0 / nusselt_fma(x, x, half_sine * half_sine);
-    float cosine = (x - half_sine) * (x + half_sine) * inverse;
-    float sine = 2.0 * x * half_sine * inverse;
-
-    // Undo the squeeze. The sine of the angle from the highest point is accurate relative to itself.
-    vec2 angle = vec2(self.squeeze, 1.0) * (cosine * self.mid + sine * vec2(-self.mid.y, self.mid.x));
-    float inverse_length = 1.0 / sqrt(dot(angle, angle));
-    float across = inverse_length * self.mid_length * sine;
-    float up = inverse_length * (angle.x * self.up.x + angle.y * self.up.y);
+    RimAnglesPoint point = rim_angles_at(self.angles, self.angles.stretch * nusselt_max(turn.cosine, 0.0),
+                                         copysign(abs(turn.sine), half_zeta));
+    float across = point.across;
+    float up = point.inverse_length * (point.scaled.x * self.up.x + point.scaled.y * self.up.y);
 
     // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
     float t = up < 0.0 ? (1.0 - up) / nusselt_max(abs(across), kNusseltEpsilon) : across / (1.0 + up);
@@ -206,7 +184,7 @@ RimTurn rim_map_turned(const RimMap self, float z) {
     result.z = z;
     result.clearance = 2.0 * (self.squared_tangent - s) / ((1.0 + s) * (1.0 + self.squared_tangent));
     result.rim = rim_map_point(self, vec2(across, up), result.clearance);
-    result.jacobian = (self.stretch * inverse) * (self.squeeze * inverse_length * inverse_length);
+    result.jacobian = point.jacobian;
     return result;
 }
 
@@ -235,7 +213,10 @@ float rim_map_solid_density(const RimMap self, const RimTurn turn) {
     // 1 + h0 y - pole x as a sum of squares: nothing cancels for the last sliver above the horizon.
     float offset = rim.disk.x - self.pole;
     float volume = 0.5 * nusselt_fma(offset, offset, nusselt_fma(turn.clearance, turn.clearance, self.power));
-    return volume * turn.jacobian / (rim.len * (rim.len * (1.0 + rim_point_cosine(rim))));
+    // The length of the ray plus its part along the pole, from the square of its sine where they cancel.
+    float sum = rim.along < 0.0 ? nusselt_fma(rim.aside, rim.aside, rim.up * rim.up) / (rim.len - rim.along)
+                                : rim.len + rim.along;
+    return volume * turn.jacobian / (rim.len * nusselt_max(sum, 4.0 * kNusseltEpsilon * rim.len));
 }
 
 /// The solid angle of the sweep over the integral of rim_map_solid_density() over z.
@@ -258,7 +239,7 @@ float rim_map_place_of(const RimMap self, vec3 wi) {
     float root = sqrt(nusselt_max(nusselt_fma(along, along, squared * self.power), 0.0));
     float reach = along <= 0.0 ? (root - along) / squared : self.power / (along + root);
     vec2 point = vec2(nusselt_fma(reach, ray.x, self.pole), nusselt_fma(reach, ray.y, -self.height));
-    float zeta = rim_map_angle(self, rim_map_from_up(self, point), point.x);
+    float zeta = rim_map_angle(self, point);
     return nusselt_min(nusselt_max(over_positive(zeta - self.left, self.half_range) - 1.0, -1.0), 1.0);
 }
 

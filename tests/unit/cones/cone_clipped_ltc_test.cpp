@@ -475,6 +475,29 @@ TEST(ConeClippedLtcTest, FarEndsOfHalfPlanesKeepTheirDigitsInWideCones) {
         }
 }
 
+TEST(ConeClippedLtcTest, SpheresThatTouchTheSurfaceOnTheLineOfBothHorizonsHaveNoSamplesOffTheLight) {
+    RandomLights random(23);
+    int lit = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto width = random.logarithmic(0.1, 1), tilt = random.uniform(0, 1.5);
+        const auto ltc =
+            lobe_of<float>(tilted_lobe(tilt, width, random.logarithmic(0.4, 1.3), random.uniform(-0.3, 0.3)));
+        const float radius = static_cast<float>(random.logarithmic(0.01, 100));
+        for (const float y : {-2.0f, 2.0f})
+            for (const float z : {-1.0f, 1.0f}) {
+                const Sphere<float> light{{0, y * radius, z * radius}, radius};
+                const auto technique = clipped(light, ltc);
+                for (int k = 0; k < 4; ++k) {
+                    const auto s = technique.sample(grid<float>(k, 2));
+                    if (!(s.pdf > 0)) continue;
+                    ++lit;
+                    ASSERT_LT(length(cross(light.center, s.wi)), 1.00001f * radius);
+                }
+            }
+    }
+    EXPECT_GT(lit, 16000);
+}
+
 TEST(ConeClippedLtcTest, LightsBelowTheSurfaceAreDark) {
     // The lobe reaches below the surface, so that ConeLtc sees the first of them.
     const auto ltc = lobe_of<float>(tilted_lobe(1.2L, 0.8L, 1.1L, 0));

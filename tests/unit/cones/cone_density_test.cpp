@@ -77,7 +77,7 @@ double dip_of(const nusselt::EllipticCone<T>& cone, const Density& density) {
 /// @{
 struct BySolidAngle {
     static constexpr const char* kName = "solid angle";
-    static constexpr bool kReachesAntipode = false, kHasFewPlaces = false;
+    static constexpr bool kHasFewPlaces = false;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -124,7 +124,6 @@ template <int Places>
 struct ByClippedSolidAngle : ByProjectedSolidAngle<Places> {
     static constexpr const char* kName =
         Places == nusselt::kConePlaces ? "clipped solid angle" : "clipped solid angle, many places";
-    static constexpr bool kReachesAntipode = true;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -142,7 +141,7 @@ struct ByClippedSolidAngle : ByProjectedSolidAngle<Places> {
 
 struct ByLobe {
     static constexpr const char* kName = "lobe, many places";
-    static constexpr bool kReachesAntipode = false, kHasFewPlaces = false;
+    static constexpr bool kHasFewPlaces = false;
 
     template <class T, template <class> class Light>
     static auto make(const Light<T>& light) {
@@ -237,13 +236,11 @@ double explained_error(const Light& light) {
 /// The error of an integral that needs no explanation.
 template <class T>
 constexpr double kSmallError = std::is_same_v<T, float> ? 1e-5 : 1e-10;
-/// The same for all lights of a class. Of near lights, rays almost reach the antipode of the pole, where 1 plus a cosine cancels in
-/// float. With few places, some lights take linear interpolants, of which quadrature over directions misses corners.
+/// The same for a technique. With few places, some lights take linear interpolants, of which quadrature over directions misses
+/// corners.
 template <class T, class Technique>
-constexpr double small_error(Place place) {
-    if (std::is_same_v<T, float>)
-        return Technique::kReachesAntipode && place == Place::near ? 3e-5 : kSmallError<T>;
-    return Technique::kHasFewPlaces ? 1e-6 : kSmallError<T>;
+constexpr double small_error() {
+    return !std::is_same_v<T, float> && Technique::kHasFewPlaces ? 1e-6 : kSmallError<T>;
 }
 /// Of quadrature. Corners of linear interpolants mislead its estimate of the error; in float, more would integrate noise.
 template <class T>
@@ -261,7 +258,7 @@ template <class T, class Technique>
 Errors errors_of(Place place, int lights, double scale) {
     Errors errors;
     RandomLights random(29);
-    const double base = small_error<T, Technique>(place);
+    const double base = small_error<T, Technique>();
     for (int i = 0; i < lights; ++i) {
         with_light<T>(random(kShapes[i % 4], place), [&](const auto& light) {
             const auto technique = Technique::make(light);
