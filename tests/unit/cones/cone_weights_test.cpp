@@ -7,12 +7,15 @@
 
 #include <gtest/gtest.h>
 
+#include <nusselt/cones/cone_clipped_ltc.h>
 #include <nusselt/cones/cone_clipped_solid_angle.h>
 #include <nusselt/cones/cone_projected_solid_angle.h>
 #include <nusselt/cones/cone_solid_angle.h>
 
 #include "common/effort.h"
+#include "cones/lobe_part.h"
 #include "cones/round_cases.h"
+#include "ltc/lobes.h"
 
 namespace nusselt_test {
 namespace {
@@ -225,6 +228,69 @@ TEST(ConeWeightsTest, ClippedSolidAngleHasNearlyConstantWeights) {
                         few.back(), most_many, many.back());
         EXPECT_LE(most_few, s.few) << s.name;
         EXPECT_LE(most_many, s.many) << s.name;
+    }
+}
+
+struct LobeWeights {
+    std::vector<double> least, largest, deviations; ///< of each light
+
+    void add(const std::vector<double>& weights) {
+        const auto [low, high] = std::minmax_element(weights.begin(), weights.end());
+        least.push_back(*low);
+        largest.push_back(*high);
+        deviations.push_back(deviation(weights));
+    }
+    /// Of 99 % of the lights, the largest difference of a weight from the mean.
+    double spread() { return std::max(1 - quantile(least, 0.01), quantile(largest, 0.99) - 1); }
+    void print(const char* name, int places) {
+        std::printf("| %s | %d | %zu | %.4f, %.4f, %.3f | %.4f, %.4f, %.3f | %.0e, %.0e, %.0e |\n", name,
+                    places, least.size(), quantile(least, 0.5), quantile(least, 0.01), quantile(least, 0),
+                    quantile(largest, 0.5), quantile(largest, 0.99), quantile(largest, 1),
+                    quantile(deviations, 0.5), quantile(deviations, 0.99), quantile(deviations, 1));
+    }
+};
+
+/// \return weights of the lights of one class that the surface cuts, in lobes of any inclination.
+template <int Places>
+LobeWeights weights_of_clipped_lobes(Place place) {
+    RandomLights random(59), jitter(61);
+    LobeWeights result;
+    for (int i = 0; i < at_effort(600, 10'000); ++i) {
+        const RoundLight light = random(kShapes[i % 4], place);
+        const auto lobe = tilted_lobe(random.uniform(0, 1.5), random.logarithmic(0.1, 1),
+                                      random.logarithmic(0.4, 1.3), random.uniform(-0.3, 0.3));
+        if (LobePart(silhouette_of(light), nusselt::Ltc<long double>(lobe)).part() != LobePart::Part::cut)
+            continue;
+        const nusselt::Ltc<float> ltc({static_cast<float>(lobe.m00), static_cast<float>(lobe.m02),
+                                       static_cast<float>(lobe.m11), static_cast<float>(lobe.m20),
+                                       static_cast<float>(lobe.m22), 1});
+        with_light<float>(light, [&]<template <class> class Light>(const Light<float>& l) {
+            const nusselt::ConeClippedLtc<float, Light, nusselt::kConeSteps<float>, Places> technique(l, ltc);
+            if (!(technique.measure() > 0)) return;
+            result.add(weights_of(jitter, [&](const auto& u) {
+                const auto s = technique.sample(u);
+                return s.pdf > 0 ? static_cast<double>(ltc.density(s.wi)) / static_cast<double>(s.pdf) : 0;
+            }));
+        });
+    }
+    return result;
+}
+
+TEST(ConeWeightsTest, LobesAboveTheSurfaceHaveNearlyConstantWeights) {
+    constexpr Spread kSpreads[] = {
+        {"ordinary", Place::ordinary, 0.1, 1e-3},   {"at the horizon", Place::at_horizon, 0.15, 1e-3},
+        {"tiny", Place::tiny, 1e-3, 1e-3},          {"edge-on", Place::edge_on, 0.1, 1e-3},
+        {"elongated", Place::elongated, 0.3, 1e-3}, {"near", Place::near, 0.4, 0.01},
+        {"needles", Place::needle, 0.4, 0.01},      {"touching", Place::touching, 0.6, 0.1}};
+    for (const Spread& s : kSpreads) {
+        auto few = weights_of_clipped_lobes<nusselt::kConePlaces>(s.place);
+        auto many = weights_of_clipped_lobes<nusselt::kFineConePlaces>(s.place);
+        ASSERT_GT(few.least.size(), 30u) << s.name;
+        EXPECT_LE(few.spread(), s.few) << s.name;
+        EXPECT_LE(many.spread(), s.many) << s.name;
+        if (!at_effort(false, true)) continue;
+        few.print(s.name, nusselt::kConePlaces);
+        many.print(s.name, nusselt::kFineConePlaces);
     }
 }
 
