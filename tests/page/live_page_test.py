@@ -345,6 +345,7 @@ class Controls(LivePageTest):
         self.changes("bring", lambda: self.browser.click(self.find("#bring")))
         for left, top in self.browser.script(places):
             self.assertTrue(9 < left < 91 and 9 < top < 91, (left, top))
+        self.wait("return !location.hash.includes('lamps=0,0,9')") # the link follows the image
         link = self.browser.script("return location.hash")
         self.browser.click(self.find("#bring"))
         self.assertEqual(link, self.browser.script("return location.hash"), "all are there")
