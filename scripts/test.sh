@@ -62,7 +62,7 @@ is_up_to_date() {
 
 # Lines of passed tests are left out: there are thousands.
 run_tests() {
-    rm -f "build/$1/test-reports/"*.xml
+    rm -f "build/$1/test-reports/"*.xml "build/$1/Testing/Temporary/LastTestsFailed.log"
     ctest --preset "$1" -j "$jobs" --output-junit "$2" | grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec *$'
 }
 
@@ -82,6 +82,8 @@ build_and_test() {
         failed=$((failed + 1))
         return
     fi
+    scripts/failed-tests.sh "build/$preset/Testing/Temporary/LastTestsFailed.log" "build/$preset/test-reports" \
+        >>"$results/failed"
     passed=$((passed + all - bad - ignored)) failed=$((failed + bad)) skipped=$((skipped + ignored))
 }
 
@@ -99,6 +101,8 @@ printf '%s\n' "${times[@]}"
 if [ "${NUSSELT_TEST_EFFORT:-quick}" = quick ] && [ "$portability" = OFF ]; then
     tests/budget/check_budget.sh tests/budget/budget.txt <"$results/cpu-times" || failed=$((failed + 1))
 fi
+# The output of tests is long, and the end of it is what people see first.
+[ ! -s "$results/failed" ] || sed '1i == failed tests' "$results/failed"
 summary="$passed passed, $failed failed"
 [ "$skipped" -eq 0 ] || summary+=", $skipped skipped"
 echo "$summary" | tee "$results/summary"

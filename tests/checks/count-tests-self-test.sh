@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Shows that count-tests.sh counts each test of a process, and as a failure each process without a report and what did not
-# start.
+# start, and that failed-tests.sh names them.
 set -euo pipefail
-count=$(cd "$(dirname "$0")/../../scripts" && pwd)/count-tests.sh
+scripts=$(cd "$(dirname "$0")/../../scripts" && pwd)
+count=$scripts/count-tests.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -56,3 +57,14 @@ expect '10 1 5'
 process_report p 0 0 0
 expect '21 0 5'
 expect '21 1 5' 8
+
+names() { "$scripts/failed-tests.sh" failed.log reports; }
+[ "$(names)" = "" ] || { echo "names without failures"; exit 1; }
+printf '%s\n' '7:checks.format' '12:p' >failed.log
+cat >reports/p.xml <<'END'
+    <testcase name="Passes" line="1" classname="A" />
+    <testcase name="Fails/1" line="2" classname="B/C">
+      <failure message="one" type=""><![CDATA[one]]></failure>
+      <failure message="two" type=""><![CDATA[two]]></failure>
+END
+[ "$(names)" = $'checks.format\np\n    B/C.Fails/1' ] || { names; exit 1; }
