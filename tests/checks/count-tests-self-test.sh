@@ -8,9 +8,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# What ctest writes, with $1 tests, $2 failures, $3 disabled and $4 skipped ones.
+# What ctest writes, with $1 tests, $2 failures, $3 disabled and $4 skipped ones. Processes p and q are among them.
 ctest_report() {
     printf '<testsuite name="(empty)"\n\ttests="%s"\n\tfailures="%s"\n\tdisabled="%s"\n\tskipped="%s"\n\t>\n' "$@" >ctest.xml
+    printf '\t<testcase name="%s" classname="%s" time="1" status="run">\n' p p q q >>ctest.xml
 }
 # What GoogleTest writes for a process $1 with two suites; the second has $2 failures, $3 disabled and $4 skipped tests.
 process_report() {
@@ -57,6 +58,9 @@ expect '10 1 5'
 process_report p 0 0 0
 expect '21 0 5'
 expect '21 1 5' 8
+# The filter of a preset left out the process r.
+expect_reports p r
+expect '21 0 5'
 
 names() { "$scripts/failed-tests.sh" failed.log reports; }
 [ "$(names)" = "" ] || { echo "names without failures"; exit 1; }
