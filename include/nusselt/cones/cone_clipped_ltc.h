@@ -20,8 +20,9 @@ NUSSELT_NAMESPACE_BEGIN
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is nearly
 /// constant (docs/techniques/elliptic_cone.md has numbers). density(wi) / pdf is unbiased.
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips to both horizons. wi.z is not negative.
-/// Edge cases: those of ConeLtc; nothing above both horizons: pdf = 0, measure 0. From inside a sphere or an ellipsoid,
-/// the part of the lobe above the surface leads to its surface.
+/// Edge cases: those of ConeLtc; nothing above both horizons: pdf = 0, measure 0. A light that touches a horizon up to
+/// rounding counts as not cut by it. From inside a sphere or an ellipsoid, the part of the lobe above the surface leads
+/// to its surface.
 template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>
 class ConeClippedLtc {
     using Scalar = scalar_t<Real>;

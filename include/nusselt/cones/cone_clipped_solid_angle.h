@@ -78,11 +78,12 @@ public:
         return select(is_whole_, u, sweep_.invert(wi));
     }
 
-    /// Estimate of the solid angle above the horizon [sr].
+    /// Estimate of the solid angle above the horizon [sr], at most 2 pi. Where the horizon cuts lights that almost touch
+    /// the point, it can be off by a factor; pdf does not depend on that.
     NUSSELT_HD Real measure() const noexcept {
         const Real whole = share_ * whole_.measure();
         if (all(is_whole_)) return whole;
-        return select(is_whole_, whole, sweep_.measure());
+        return select(is_whole_, whole, min(sweep_.measure(), Real(2 * kPi<scalar_t<Real>>)));
     }
 
 private:

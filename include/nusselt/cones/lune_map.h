@@ -2,6 +2,8 @@
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. See lune_sweep.h.
 
+#include <limits>
+
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/cones/rim_angles.h>
@@ -14,7 +16,7 @@ NUSSELT_NAMESPACE_BEGIN
 ///
 /// The first horizon is z = 0, the second one a plane through the y-axis. Half-planes through the y-axis turn from the
 /// first one to the second one around the pole, that of the two directions of the axis that is closer to the axis of
-/// the cone.
+/// the cone. A cone that touches a horizon up to rounding counts as not cut.
 template <class Real>
 class LuneMap {
     using Scalar = scalar_t<Real>;
@@ -246,9 +248,11 @@ private:
         const Real na = a_ * normal.x, nb = b_ * normal.y, nc = c_ * normal.z;
         const Real k = detail::hypotenuse(na, nb);
         const auto crosses = abs(nc) < k;
-        chord.steepness = select(crosses, k, Real(1));
+        // A plane that misses the rim has the point of it that is closest to the plane.
+        const auto leans = k > Real(kTiny<Scalar>);
+        chord.steepness = select(leans, k, Real(1));
         const Real inverse = Real(1) / chord.steepness;
-        const Vec2<Real> up{select(crosses, na * inverse, Real(1)), select(crosses, nb * inverse, Real(0))};
+        const Vec2<Real> up{select(leans, na * inverse, Real(1)), select(leans, nb * inverse, Real(0))};
         chord.height = min(max(nc * inverse, Real(-1)), Real(1));
         const auto gaps = detail::horizon_gaps({a_, b_, c_}, normal, chord.steepness);
         // Where a plane touches the rim at the pole, rounding would choose the side of the pole on which its end is.

@@ -18,7 +18,7 @@ struct RimAngles {
         Vec2<Real> scaled;   ///< in the disk, times a length
         Real inverse_length; ///< of that
         Real across; ///< the sine of the angle in the disk from the reference, accurate relative to itself
-        Real inverse_norm; ///< of the stretched cosine and the sine of half of the angle, squared
+        Real inverse_norm; ///< one over the squared length of (x, s), see at()
         Real jacobian;     ///< angle in the disk per angle of the map
     };
 
@@ -44,8 +44,10 @@ struct RimAngles {
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param half half of 1 plus the cosine of the angle between pole and reference, positive.
-    NUSSELT_HD void set_stretch(const Real& half) noexcept { stretch = Real(1) / sqrt(half); }
+    /// \param squared_cosine of half of the angle between pole and reference, positive.
+    NUSSELT_HD void set_stretch(const Real& squared_cosine) noexcept {
+        stretch = Real(1) / sqrt(squared_cosine);
+    }
 
     /// \param x the cosine of half of the angle of the map, times the stretch.
     /// \param s the sine of it.

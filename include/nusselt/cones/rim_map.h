@@ -2,9 +2,12 @@
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
 /// cone_sweep.h and solid_sweep.h.
 
+#include <limits>
+
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
 #include <nusselt/cones/rim_angles.h>
+#include <nusselt/core/trig.h>
 #include <nusselt/geometry/precise_products.h>
 
 NUSSELT_NAMESPACE_BEGIN
@@ -219,7 +222,9 @@ public:
         const Real squared = multiply_add(rim.aside, rim.aside, rim.up * rim.up);
         const Real sum =
             select(back, squared, rim.length + rim.along) / select(back, rim.length - rim.along, Real(1));
-        const Real least = Real(4 * std::numeric_limits<Scalar>::epsilon()) * rim.length;
+        // Quotients must stay finite.
+        constexpr Scalar kRounding = std::numeric_limits<Scalar>::epsilon();
+        const Real least = Real(kRounding * kRounding) * rim.length;
         return volume * turn.jacobian / (rim.length * max(sum, least));
     }
     /// The solid angle of the sweep over the integral of solid_density() over z.
@@ -227,7 +232,7 @@ public:
 
     /// 1 minus the cosine of the angle of a point of the rim from the pole.
     NUSSELT_HD static Real versine_of(const Rim& rim) noexcept {
-        return detail::versine(detail::hypotenuse(rim.aside, rim.up) / rim.length, cosine_of(rim));
+        return detail::versine(detail::hypotenuse(rim.aside, rim.up) / rim.length, rim.along / rim.length);
     }
 
     /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
@@ -257,12 +262,6 @@ public:
     }
 
 private:
-    /// Of the angle from the pole, and so far from -1 that quotients are finite.
-    NUSSELT_HD static Real cosine_of(const Rim& rim) noexcept {
-        constexpr Scalar kLeast = -1 + 4 * std::numeric_limits<Scalar>::epsilon();
-        return min(max(rim.along / rim.length, Real(kLeast)), Real(1));
-    }
-
     /// \param disk      a point of the unit circle, across and up from the axis.
     /// \param clearance its height above the horizon.
     NUSSELT_HD Rim rim_at(const Vec2<Real>& disk, const Real& clearance) const noexcept {

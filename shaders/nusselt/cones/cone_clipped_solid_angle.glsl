@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_CLIPPED_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_CLIPPED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/cones/cone_clipped_solid_angle.h @ 668054d42400
+// Follows include/nusselt/cones/cone_clipped_solid_angle.h @ 1c56adc4dddd
 /// Sampling of the solid angle of the part of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light())
 /// above the surface. Twin of include/nusselt/cones/cone_clipped_solid_angle.h, which has the measure and the edge
 /// cases.
@@ -39,7 +39,7 @@ ConeClippedSolidAngle cone_clipped_solid_angle_prepare(const Ellipsoid light) {
 
 /// Estimate of the solid angle above the horizon [sr].
 float cone_clipped_solid_angle_measure(const ConeClippedSolidAngle self) {
-    return self.is_whole ? self.share * self.whole.measure : self.sweep.measure;
+    return self.is_whole ? self.share * self.whole.measure : nusselt_min(self.sweep.measure, 2.0 * kNusseltPi);
 }
 
 /// \param wi a unit direction towards the light.

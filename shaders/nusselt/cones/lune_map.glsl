@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ 0619105c2929
+// Follows include/nusselt/cones/lune_map.h @ 4a15c7bf1442
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -92,9 +92,11 @@ LuneChord lune_map_chord(const LuneMap self, vec3 normal, vec3 out_of) {
     vec3 n = self.lengths * normal;
     float k = hypotenuse(n.x, n.y);
     bool crosses = abs(n.z) < k;
-    chord.steepness = crosses ? k : 1.0;
+    // A plane that misses the rim has the point of it that is closest to the plane.
+    bool leans = k > kNusseltTiny;
+    chord.steepness = leans ? k : 1.0;
     float inverse = 1.0 / chord.steepness;
-    vec2 up = crosses ? inverse * n.xy : vec2(1.0, 0.0);
+    vec2 up = leans ? inverse * n.xy : vec2(1.0, 0.0);
     chord.height = nusselt_min(nusselt_max(n.z * inverse, -1.0), 1.0);
     float smaller, larger;
     horizon_gaps(self.lengths, normal, chord.steepness, smaller, larger);

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_ANGLES_GLSL
 #define NUSSELT_CONES_RIM_ANGLES_GLSL
-// Follows include/nusselt/cones/rim_angles.h @ dc4efae7628e
+// Follows include/nusselt/cones/rim_angles.h @ 1393bd0dccf9
 /// Angles around the rim of an elliptic cone in which densities of sweeps are smooth. Twin of
 /// include/nusselt/cones/rim_angles.h.
 
@@ -18,7 +18,7 @@ struct RimAnglesPoint {
     vec2 scaled;          ///< in the disk, times a length
     float inverse_length; ///< of that
     float across;         ///< the sine of the angle in the disk from the reference, accurate relative to itself
-    float inverse_norm;   ///< of the stretched cosine and the sine of half of the angle, squared
+    float inverse_norm;   ///< one over the squared length of (x, s), see rim_angles_at()
     float jacobian;       ///< angle in the disk per angle of the map
 };
 
@@ -35,8 +35,8 @@ RimAngles make_rim_angles(vec3 lengths, vec2 reference) {
     return self;
 }
 
-/// \param half_versine half of 1 plus the cosine of the angle between pole and reference, positive.
-void rim_angles_set_stretch(inout RimAngles self, float half_versine) { self.stretch = 1.0 / sqrt(half_versine); }
+/// \param squared_cosine of half of the angle between pole and reference, positive.
+void rim_angles_set_stretch(inout RimAngles self, float squared_cosine) { self.stretch = 1.0 / sqrt(squared_cosine); }
 
 /// \param x the cosine of half of the angle of the map, times the stretch.
 /// \param s the sine of it.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ c0b0f0edc8a3
+// Follows include/nusselt/cones/rim_map.h @ ace1d38f2690
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -202,11 +202,6 @@ float rim_map_density(const RimMap self, const RimTurn turn) {
     return weight * turn.clearance * volume * (inverse * inverse * inverse) * turn.jacobian;
 }
 
-/// The cosine of the angle of a point of the rim from the pole, so far from -1 that quotients are finite.
-float rim_point_cosine(const RimPoint rim) {
-    return nusselt_min(nusselt_max(rim.cosine, -1.0 + 4.0 * kNusseltEpsilon), 1.0);
-}
-
 /// The solid angle of the sweep per z, up to a constant. It is positive at both ends as well.
 float rim_map_solid_density(const RimMap self, const RimTurn turn) {
     RimPoint rim = turn.rim;
@@ -216,14 +211,15 @@ float rim_map_solid_density(const RimMap self, const RimTurn turn) {
     // The length of the ray plus its part along the pole, from the square of its sine where they cancel.
     float sum = rim.along < 0.0 ? nusselt_fma(rim.aside, rim.aside, rim.up * rim.up) / (rim.len - rim.along)
                                 : rim.len + rim.along;
-    return volume * turn.jacobian / (rim.len * nusselt_max(sum, 4.0 * kNusseltEpsilon * rim.len));
+    // Quotients must stay finite.
+    return volume * turn.jacobian / (rim.len * nusselt_max(sum, kNusseltEpsilon * kNusseltEpsilon * rim.len));
 }
 
 /// The solid angle of the sweep over the integral of rim_map_solid_density() over z.
 float rim_map_solid_scale(const RimMap self) { return self.narrowing * self.slope * self.half_range; }
 
 /// 1 minus the cosine of the angle of a point of the rim from the pole.
-float rim_point_versine(const RimPoint rim) { return versine_of(rim.sine, rim_point_cosine(rim)); }
+float rim_point_versine(const RimPoint rim) { return versine_of(rim.sine, rim.cosine); }
 
 /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
 float rim_map_place_of(const RimMap self, vec3 wi) {

@@ -11,8 +11,8 @@
 #include <nusselt/cones/cone_clipped_ltc.h>
 
 #include "common/effort.h"
+#include "cones/lobe_part.h"
 #include "cones/round_cases.h"
-#include "ltc/lobes.h"
 
 namespace nusselt_test {
 namespace {
@@ -167,12 +167,7 @@ struct CutByTheSurface {
     using Scalar = Float;
     template <class Broken, class Light>
     static void add(Errors& errors, RandomLights& random, const Light& light, const Broken& broken) {
-        const double width = random.logarithmic(0.1, 1), tilt = random.uniform(0, 1.5);
-        const double aspect = random.logarithmic(0.4, 1.3);
-        const auto c = tilted_lobe(tilt, width, aspect, random.uniform(-0.3, 0.3));
-        const auto number = [](long double x) { return static_cast<Float>(x); };
-        const nusselt::Ltc<Float> ltc(
-            {number(c.m00), number(c.m02), number(c.m11), number(c.m20), number(c.m22), Float(1)});
+        const auto ltc = lobe_of<Float>(random_lobe(random));
         const nusselt::Vec3<Float> normal = normalize(ltc.normal_to_cosine({0, 0, 1}));
         const EllipticCone<Float> cone = view_of(light, [&](const auto& v) { return ltc.to_cosine(v); }).cone;
         const LuneMap<Float> map(cone, normal);

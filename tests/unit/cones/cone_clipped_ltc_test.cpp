@@ -29,12 +29,6 @@ using Part = LobePart::Part;
 using Side = LobePart::Side;
 using nusselt::Vec2;
 
-template <class T>
-nusselt::Ltc<T> lobe_of(const LtcCoefficients<long double>& c) {
-    return nusselt::Ltc<T>({static_cast<T>(c.m00), static_cast<T>(c.m02), static_cast<T>(c.m11),
-                            static_cast<T>(c.m20), static_cast<T>(c.m22), T(1)});
-}
-
 template <class T, template <class> class Light>
 nusselt::ConeClippedLtc<T, Light> clipped(const Light<T>& light, const nusselt::Ltc<T>& ltc) {
     return {light, ltc};
@@ -58,9 +52,7 @@ void for_each_light(Place place, int count, const Function& f) {
     for (int i = 0; i < count; ++i) {
         for (const Shape shape : kShapes) {
             const RoundLight light = lights(shape, place);
-            const auto width = lights.logarithmic(0.1, 1);
-            const auto tilt = lights.uniform(0, 1.5), aspect = lights.logarithmic(0.4, 1.3);
-            f(light, tilted_lobe(tilt, width, aspect, lights.uniform(-0.3, 0.3)));
+            f(light, random_lobe(lights));
         }
     }
 }
@@ -479,9 +471,7 @@ TEST(ConeClippedLtcTest, SpheresThatTouchTheSurfaceOnTheLineOfBothHorizonsHaveNo
     RandomLights random(23);
     int lit = 0;
     for (int i = 0; i < 4000; ++i) {
-        const auto width = random.logarithmic(0.1, 1), tilt = random.uniform(0, 1.5);
-        const auto ltc =
-            lobe_of<float>(tilted_lobe(tilt, width, random.logarithmic(0.4, 1.3), random.uniform(-0.3, 0.3)));
+        const auto ltc = lobe_of<float>(random_lobe(random));
         const float radius = static_cast<float>(random.logarithmic(0.01, 100));
         for (const float y : {-2.0f, 2.0f})
             for (const float z : {-1.0f, 1.0f}) {
@@ -496,6 +486,23 @@ TEST(ConeClippedLtcTest, SpheresThatTouchTheSurfaceOnTheLineOfBothHorizonsHaveNo
             }
     }
     EXPECT_GT(lit, 16000);
+}
+
+TEST(ConeClippedLtcTest, HalfPlanesThatTouchTheLightLeadBackToWhereTheTurnBegins) {
+    int samples = 0;
+    for_each_cut_light(Place::ordinary, 100, [&](const RoundLight& light, const auto& lobe, double) {
+        const auto ltc = lobe_of<float>(lobe);
+        with_light<float>(light, [&](const auto& l) {
+            const auto technique = clipped(l, ltc);
+            for (const float y : {0.1f, 0.5f, 0.9f}) {
+                const auto s = technique.sample({0, y});
+                if (!(s.pdf > 0)) continue;
+                ++samples;
+                ASSERT_LT(technique.invert(s.wi).x, 0.01f);
+            }
+        });
+    });
+    EXPECT_GT(samples, 50);
 }
 
 TEST(ConeClippedLtcTest, LightsBelowTheSurfaceAreDark) {

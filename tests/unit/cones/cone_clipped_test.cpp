@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +133,35 @@ TEST(ConeClippedSolidAngleTest, DensitiesAreThoseOfTheMap) {
     EXPECT_GT(jacobian_error<nusselt::kConePlaces>(1.0001), kDifferences);
     EXPECT_LE(jacobian_error<nusselt::kFineConePlaces>(1), kDifferences);
     EXPECT_GT(jacobian_error<nusselt::kFineConePlaces>(1.0001), kDifferences);
+}
+
+/// The largest relative error of the mean of 1 / pdf for large disks so close to the point, and so flat to the surface,
+/// that nearly all directions lead to them. All rays of their sweep almost reach the antipode of the pole.
+template <class T>
+double bias_of_wide_disks() {
+    double worst = 0;
+    for (const auto& [height, tilt] : {std::pair{3e-4, 4.5e-4}, {1e-4, 1.5e-4}, {1e-5, 1.5e-5}}) {
+        const nusselt::Vec3<T> center{T(0.1), T(0.05), static_cast<T>(height)};
+        const nusselt::Vec3<T> normal{static_cast<T>(tilt), static_cast<T>(0.3 * tilt), T(1)};
+        const auto technique = clipped(Disk<T>{center, normalize(normal), T(1)});
+        RandomLights jitter(61);
+        double sum = 0;
+        constexpr int kSide = 160;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const double x = (i % kSide + jitter.uniform(0, 1)) / kSide;
+            const double y = (i / kSide + jitter.uniform(0, 1)) / kSide;
+            const auto pdf = technique.sample({static_cast<T>(x), static_cast<T>(y)}).pdf;
+            sum += pdf > 0 ? 1 / static_cast<double>(pdf) : 0;
+        }
+        worst = std::max(worst, std::fabs(sum / (kSide * kSide) / (2 * 3.14159265358979) - 1));
+    }
+    return worst;
+}
+
+TEST(ConeClippedSolidAngleTest, DensitiesAreRightNextToTheAntipodeOfThePole) {
+    constexpr double kNoise = 1e-2; // weights of the last disk reach 29
+    EXPECT_LE(bias_of_wide_disks<float>(), kNoise);
+    EXPECT_LE(bias_of_wide_disks<double>(), kNoise);
 }
 
 /// No sample is below the surface, its point is on its ray, and it leads back to its random numbers.

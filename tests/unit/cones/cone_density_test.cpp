@@ -378,6 +378,8 @@ TEST(ConeDensityTest, DensitiesAreThoseOfTheSamples) {
     EXPECT_TRUE((are_densities_of_samples<BySolidAngle, BySolidAngle>(lights)));
     EXPECT_TRUE((are_densities_of_samples<Few, Few>(lights)));
     EXPECT_TRUE((are_densities_of_samples<Many, Many>(lights)));
+    using Clipped = ByClippedSolidAngle<nusselt::kConePlaces>;
+    EXPECT_TRUE((are_densities_of_samples<Clipped, Clipped>(lights)));
     EXPECT_TRUE((are_densities_of_samples<ByLobe, ByLobe>(lights)));
 }
 

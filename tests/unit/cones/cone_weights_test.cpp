@@ -15,7 +15,6 @@
 #include "common/effort.h"
 #include "cones/lobe_part.h"
 #include "cones/round_cases.h"
-#include "ltc/lobes.h"
 
 namespace nusselt_test {
 namespace {
@@ -257,13 +256,10 @@ LobeWeights weights_of_clipped_lobes(Place place) {
     LobeWeights result;
     for (int i = 0; i < at_effort(600, 10'000); ++i) {
         const RoundLight light = random(kShapes[i % 4], place);
-        const auto lobe = tilted_lobe(random.uniform(0, 1.5), random.logarithmic(0.1, 1),
-                                      random.logarithmic(0.4, 1.3), random.uniform(-0.3, 0.3));
-        if (LobePart(silhouette_of(light), nusselt::Ltc<long double>(lobe)).part() != LobePart::Part::cut)
+        const auto lobe = random_lobe(random);
+        if (LobePart(silhouette_of(light), lobe_of<long double>(lobe)).part() != LobePart::Part::cut)
             continue;
-        const nusselt::Ltc<float> ltc({static_cast<float>(lobe.m00), static_cast<float>(lobe.m02),
-                                       static_cast<float>(lobe.m11), static_cast<float>(lobe.m20),
-                                       static_cast<float>(lobe.m22), 1});
+        const auto ltc = lobe_of<float>(lobe);
         with_light<float>(light, [&]<template <class> class Light>(const Light<float>& l) {
             const nusselt::ConeClippedLtc<float, Light, nusselt::kConeSteps<float>, Places> technique(l, ltc);
             if (!(technique.measure() > 0)) return;

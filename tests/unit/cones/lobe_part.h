@@ -1,5 +1,6 @@
 #pragma once
-/// What the horizon of a lobe and that of the surface leave of a light, by geometry and formulas that the library does not use.
+/// Random lobes, and what the horizon of a lobe and that of the surface leave of a light, by geometry and formulas that
+/// the library does not use.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,22 @@
 #include <nusselt/ltc/ltc.h>
 
 #include "cones/round_cases.h"
+#include "ltc/lobes.h"
 
 namespace nusselt_test {
+
+/// Of any inclination, 0.1 to 1 wide. Arguments of a call may be evaluated in any order, and so may not be random.
+inline nusselt::LtcCoefficients<long double> random_lobe(RandomLights& random) {
+    const double width = random.logarithmic(0.1, 1), tilt = random.uniform(0, 1.5);
+    const double aspect = random.logarithmic(0.4, 1.3);
+    return tilted_lobe(tilt, width, aspect, random.uniform(-0.3, 0.3));
+}
+
+template <class T>
+nusselt::Ltc<T> lobe_of(const nusselt::LtcCoefficients<long double>& c) {
+    return nusselt::Ltc<T>({static_cast<T>(c.m00), static_cast<T>(c.m02), static_cast<T>(c.m11),
+                            static_cast<T>(c.m20), static_cast<T>(c.m22), T(1)});
+}
 
 /// The ellipse center + x u + y v, with x^2 + y^2 at most 1, in the cosine space of a lobe and at the surface.
 class LobePart {
