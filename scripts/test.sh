@@ -2,7 +2,7 @@
 # Builds and runs tests, stage by stage; docs/testing.md lists what each stage proves.
 # Usage: scripts/test.sh [check|all|full]    (check: the library, for this processor; full: also the tests of portability)
 # NUSSELT_TEST_EFFORT is the effort of the tests, quick (the default) or full.
-# The last line sums up: `N passed, N failed`, with `, N skipped` where tests were skipped.
+# The last line sums up: `N passed, N failed`, with `, N skipped` where tests were skipped. The lines before it name what failed.
 # With CI=true in the environment compiler warnings are errors.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -66,24 +66,28 @@ run_tests() {
     ctest --preset "$1" -j "$jobs" --output-junit "$2" | grep -vE '^ *Start +[0-9]+:|Passed +[0-9.]+ sec *$'
 }
 
-# Builds a preset with the arguments of build(), runs its tests and adds up the results. A build that fails counts as one
-# failed test.
+# Counts something that is not a test as a failed one. $1: its name
+add_failure() {
+    failed=$((failed + 1))
+    echo "$1" >>"$results/failed"
+}
+
+# Builds a preset with the arguments of build(), runs its tests and adds up the results.
 build_and_test() {
     local preset=$1 report=$PWD/$results/$1.xml
     if ! stage "$preset: build" build "$@"; then
-        failed=$((failed + 1))
+        add_failure "$preset: build"
         return
     fi
     local all bad ignored status=0
     stage "$preset: tests" run_tests "$preset" "$report" || status=$?
     read -r all bad ignored < <(scripts/count-tests.sh "$report" "build/$preset/test-reports" "$status")
     if [ "${all:-0}" -eq 0 ]; then
-        echo "no test ran"
-        failed=$((failed + 1))
+        add_failure "$preset: no test ran"
         return
     fi
-    scripts/failed-tests.sh "build/$preset/Testing/Temporary/LastTestsFailed.log" "build/$preset/test-reports" \
-        >>"$results/failed"
+    scripts/failed-tests.sh "build/$preset/Testing/Temporary/LastTestsFailed.log" "$report" \
+        "build/$preset/test-reports" >>"$results/failed"
     passed=$((passed + all - bad - ignored)) failed=$((failed + bad)) skipped=$((skipped + ignored))
 }
 
@@ -99,7 +103,7 @@ echo "== times"
 printf '%s\n' "${times[@]}"
 # A stage that is far above its budget counts as a failed test. The full effort has none.
 if [ "${NUSSELT_TEST_EFFORT:-quick}" = quick ] && [ "$portability" = OFF ]; then
-    tests/budget/check_budget.sh tests/budget/budget.txt <"$results/cpu-times" || failed=$((failed + 1))
+    tests/budget/check_budget.sh tests/budget/budget.txt <"$results/cpu-times" || add_failure "the budget of a stage"
 fi
 # The output of tests is long, and the end of it is what people see first.
 [ ! -s "$results/failed" ] || sed '1i == failed tests' "$results/failed"

@@ -62,8 +62,11 @@ expect '21 1 5' 8
 expect_reports p r
 expect '21 0 5'
 
-names() { "$scripts/failed-tests.sh" failed.log reports; }
+names() { "$scripts/failed-tests.sh" failed.log ctest.xml reports; }
 [ "$(names)" = "" ] || { echo "names without failures"; exit 1; }
+expect_reports p q
+rm -f reports/q.xml
+[ "$(names)" = 'q (without a report)' ] || { names; exit 1; }
 printf '%s\n' '7:checks.format' '12:p' >failed.log
 cat >reports/p.xml <<'END'
     <testcase name="Passes" line="1" classname="A" />
@@ -71,4 +74,4 @@ cat >reports/p.xml <<'END'
       <failure message="one" type=""><![CDATA[one]]></failure>
       <failure message="two" type=""><![CDATA[two]]></failure>
 END
-[ "$(names)" = $'checks.format\np\n    B/C.Fails/1' ] || { names; exit 1; }
+[ "$(names)" = $'checks.format\np\n    B/C.Fails/1\nq (without a report)' ] || { names; exit 1; }
