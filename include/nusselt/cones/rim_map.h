@@ -105,9 +105,9 @@ public:
         const Vec3<Real> upwards{a_ * up_.x, b_ * up_.y, Real(0)};
         const Vec3<Real> middle{-height_ * upwards.x, -height_ * upwards.y, c_};
         const Real to_ends = length(middle + half_arc * across) + length(middle - half_arc * across);
-        const Real tilt = height_ * ((a_ - b_) * (a_ + b_)) * (up_.x * up_.y);
         const Real relative = half_arc / select(to_ends > Real(0), to_ends, Real(1));
-        pole_ = Real(-4) * relative * relative * tilt;
+        const Real skew = (Real(4) * relative * relative) * (((a_ - b_) * (a_ + b_)) * (up_.x * up_.y));
+        pole_ = -skew * height_;
         power_ = max((half_arc - pole_) * (half_arc + pole_), Real(0));
         const Vec3<Real> q = middle + pole_ * across;
         distance_ = length(q);
@@ -128,11 +128,16 @@ public:
         along_up_ = dot(p, upwards);
 
         // Choose the map of the rim.
-        angles_ = RimAngles<Real>(a_, b_, c_, up_);
-        const Rim top = rim_at({Real(0), Real(1)}, upper);
-        const Real cosine = max(top.along / top.length, Real(-1));
-        angles_.set_stretch(
-            max(Real(0.5) * (Real(1) + cosine), Real(64 * std::numeric_limits<Scalar>::epsilon())));
+        // The ray to the point opposite to the pole is the one that almost reaches the antipode, if any does. Of small
+        // parts above the horizon, the highest point is as good, and heights above the horizon have all their digits.
+        const Real lean = select(height_ > Real(0), skew, Real(0));
+        const Real inverse_lean = Real(1) / sqrt(multiply_add(lean, lean, Real(1)));
+        reference_ = {lean * inverse_lean, inverse_lean};
+        angles_ = RimAngles<Real>(a_, b_, c_, from_up(reference_));
+        const Rim top = rim_at(reference_, select(height_ > Real(0), reference_.y + height_, upper));
+        const Real versine =
+            detail::versine(detail::hypotenuse(top.aside, top.up) / top.length, -top.along / top.length);
+        angles_.set_stretch(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
         left_ = angle_at({-half_arc, -height_});
         const Real right = angle_at({half_arc, -height_});
         half_range_ = Real(0.5) * (right - left_);
@@ -159,7 +164,7 @@ public:
     NUSSELT_HD Vec2<Real> towards(const Rim& rim, const Real& share) const noexcept {
         const Vec2<Real> from{pole_, -height_};
         const Vec2<Real> disk = from + share * (rim.disk - from);
-        return {disk.y * up_.x - disk.x * up_.y, disk.y * up_.y + disk.x * up_.x};
+        return from_up(disk);
     }
 
     NUSSELT_HD static Angle angle_of(const Rim& rim) noexcept {
@@ -174,8 +179,9 @@ public:
         const Real zeta = multiply_add(half_range_, z + Real(1), left_);
         const auto half = sincos_quarter_turn_with_sign(Real(0.5) * zeta);
         const auto point = angles_.at(angles_.stretch * half.cos, half.sin);
-        const Real across = point.across;
-        const Real up = point.inverse_length * (point.scaled.x * up_.x + point.scaled.y * up_.y);
+        const Real cosine = point.inverse_length * dot(point.scaled, from_up(reference_));
+        const Real across = multiply_add(point.across, reference_.y, cosine * reference_.x);
+        const Real up = multiply_add(cosine, reference_.y, -point.across * reference_.x);
 
         // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
         const auto below = up < Real(0);
@@ -262,6 +268,11 @@ public:
     }
 
 private:
+    /// A point of the disk, given across and up from the axis.
+    NUSSELT_HD Vec2<Real> from_up(const Vec2<Real>& p) const noexcept {
+        return {p.y * up_.x - p.x * up_.y, p.y * up_.y + p.x * up_.x};
+    }
+
     /// \param disk      a point of the unit circle, across and up from the axis.
     /// \param clearance its height above the horizon.
     NUSSELT_HD Rim rim_at(const Vec2<Real>& disk, const Real& clearance) const noexcept {
@@ -275,8 +286,8 @@ private:
 
     /// The angle of the map of a point of the rim, given across and up from the axis.
     NUSSELT_HD Real angle_at(const Vec2<Real>& point) const noexcept {
-        const Vec2<Real> turned{point.y * up_.x - point.x * up_.y, point.y * up_.y + point.x * up_.x};
-        return angles_.angle_of(angles_.half_of(turned, point.x));
+        const Real cross = multiply_add(point.x, reference_.y, -point.y * reference_.x);
+        return angles_.angle_of(angles_.half_of(from_up(point), cross));
     }
 
     NUSSELT_HD static SinCos<Real> sincos_quarter_turn_with_sign(const Real& angle) noexcept {
@@ -294,8 +305,9 @@ private:
     Real distance_;        ///< of the pole, as a point of the cone
     Vec3<Real> p_, h_;     ///< unit and horizontal: to the pole, and perpendicular to it
     Real shear_, narrowing_, slope_, along_across_, along_up_; ///< from the disk to p, h and n
-    RimAngles<Real> angles_;                                   ///< from the highest point
-    Real left_, half_range_;                                   ///< angles of the map
+    Vec2<Real> reference_;   ///< of angles: the highest point, or the one opposite to the pole; across and up
+    RimAngles<Real> angles_; ///< from the reference
+    Real left_, half_range_; ///< angles of the map
     mask_t<Real> is_cut_;
 
     friend struct detail::Members;
@@ -303,7 +315,8 @@ private:
     NUSSELT_HD static void members(Self& self, const Visit& visit) noexcept {
         visit(self.a_, self.b_, self.c_, self.up_, self.height_, self.gap_, self.squared_tangent_, self.pole_,
               self.power_, self.distance_, self.p_, self.h_, self.shear_, self.narrowing_, self.slope_,
-              self.along_across_, self.along_up_, self.angles_, self.left_, self.half_range_, self.is_cut_);
+              self.along_across_, self.along_up_, self.reference_, self.angles_, self.left_, self.half_range_,
+              self.is_cut_);
     }
 };
 

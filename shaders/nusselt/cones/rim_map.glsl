@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ ace1d38f2690
+// Follows include/nusselt/cones/rim_map.h @ 6c4fecb43dcb
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -24,7 +24,8 @@ struct RimMap {
     float len;             ///< of the pole, as a point of the cone
     vec3 p, h;             ///< unit and horizontal: to the pole, and perpendicular to it
     float shear, narrowing, slope, along_across, along_up; ///< from the disk to p, h and n
-    RimAngles angles;       ///< from the highest point
+    vec2 reference;         ///< of angles: the highest point, or the one opposite to the pole; across and up
+    RimAngles angles;       ///< from the reference
     float left, half_range; ///< angles of the map
     bool is_cut;
 };
@@ -70,7 +71,8 @@ vec2 rim_map_from_up(const RimMap self, vec2 disk) {
 
 /// The angle of the map of a point of the rim, given across and up from the axis.
 float rim_map_angle(const RimMap self, vec2 point) {
-    return rim_angle_of(rim_angles_half_of(self.angles, rim_map_from_up(self, point), point.x));
+    float across = nusselt_fma(point.x, self.reference.y, -point.y * self.reference.x);
+    return rim_angle_of(rim_angles_half_of(self.angles, rim_map_from_up(self, point), across));
 }
 
 /// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but
@@ -125,9 +127,9 @@ RimMap make_rim_map(const EllipticCone cone) {
     vec3 upwards = vec3(self.a * self.up.x, self.b * self.up.y, 0.0);
     vec3 middle = vec3(-self.height * upwards.x, -self.height * upwards.y, self.c);
     float to_ends = nusselt_length(middle + half_arc * across) + nusselt_length(middle - half_arc * across);
-    float tilt = self.height * ((self.a - self.b) * (self.a + self.b)) * (self.up.x * self.up.y);
     float relative = half_arc / (to_ends > 0.0 ? to_ends : 1.0);
-    self.pole = -4.0 * relative * relative * tilt;
+    float skew = (4.0 * relative * relative) * (((self.a - self.b) * (self.a + self.b)) * (self.up.x * self.up.y));
+    self.pole = -skew * self.height;
     self.power = nusselt_max((half_arc - self.pole) * (half_arc + self.pole), 0.0);
     vec3 q = middle + self.pole * across;
     self.len = nusselt_length(q);
@@ -148,10 +150,13 @@ RimMap make_rim_map(const EllipticCone cone) {
     self.along_up = dot(p, upwards);
 
     // Choose the map of the rim.
-    self.angles = make_rim_angles(vec3(self.a, self.b, self.c), self.up);
-    RimPoint top = rim_map_point(self, vec2(0.0, 1.0), upper);
-    float cosine = nusselt_max(top.cosine, -1.0);
-    rim_angles_set_stretch(self.angles, nusselt_max(0.5 * (1.0 + cosine), 64.0 * kNusseltEpsilon));
+    // The ray to the point opposite to the pole is the one that almost reaches the antipode, if any does. Of small parts
+    // above the horizon, the highest point is as good, and heights above the horizon have all their digits.
+    float lean = self.height > 0.0 ? skew : 0.0;
+    self.reference = vec2(lean, 1.0) * (1.0 / sqrt(nusselt_fma(lean, lean, 1.0)));
+    self.angles = make_rim_angles(vec3(self.a, self.b, self.c), rim_map_from_up(self, self.reference));
+    RimPoint top = rim_map_point(self, self.reference, self.height > 0.0 ? self.reference.y + self.height : upper);
+    rim_angles_set_stretch(self.angles, nusselt_max(0.5 * versine_of(top.sine, -top.cosine), kNusseltTiny));
     self.left = rim_map_angle(self, vec2(-half_arc, -self.height));
     float right = rim_map_angle(self, vec2(half_arc, -self.height));
     self.half_range = 0.5 * (right - self.left);
@@ -173,8 +178,9 @@ RimTurn rim_map_turned(const RimMap self, float z) {
     SinCos turn = sincos_half_turn(abs(half_zeta));
     RimAnglesPoint point = rim_angles_at(self.angles, self.angles.stretch * nusselt_max(turn.cosine, 0.0),
                                          copysign(abs(turn.sine), half_zeta));
-    float across = point.across;
-    float up = point.inverse_length * (point.scaled.x * self.up.x + point.scaled.y * self.up.y);
+    float cosine = point.inverse_length * dot(point.scaled, rim_map_from_up(self, self.reference));
+    float across = nusselt_fma(point.across, self.reference.y, cosine * self.reference.x);
+    float up = nusselt_fma(cosine, self.reference.y, -point.across * self.reference.x);
 
     // The height above the horizon, by the squares of the tangents of half-angles: nothing cancels but at the ends.
     float t = up < 0.0 ? (1.0 - up) / nusselt_max(abs(across), kNusseltEpsilon) : across / (1.0 + up);

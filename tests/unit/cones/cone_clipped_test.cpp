@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,18 +92,22 @@ TEST(ConeClippedSolidAngleTest, WeightsOfWideConesAreNearlyConstantWithMorePlace
         }
         return largest;
     };
-    double coarse = 0, fine = 0;
-    for (const Place place : {Place::near, Place::needle}) {
+    std::vector<double> coarse, fine;
+    for (const Place place : {Place::near, Place::needle, Place::touching}) {
         for_each_light(place, 50, [&](const RoundLight& light) {
-            with_light<double>(light, [&](const auto& l) { coarse = std::max(coarse, spread(clipped(l))); });
-            with_light<double>(light, [&](const auto& l) {
-                fine = std::max(fine, spread(clipped<nusselt::kFineConePlaces>(l)));
-            });
+            with_light<double>(light, [&](const auto& l) { coarse.push_back(spread(clipped(l))); });
+            with_light<double>(
+                light, [&](const auto& l) { fine.push_back(spread(clipped<nusselt::kFineConePlaces>(l))); });
         });
     }
-    constexpr double kTarget = 0.02; // cone_weights_test.cpp has quantiles
-    EXPECT_LE(fine, kTarget);
-    EXPECT_GT(coarse, kTarget);
+    const auto most = [](std::vector<double>& spreads) {
+        std::sort(spreads.begin(), spreads.end());
+        return spreads[spreads.size() * 98 / 100];
+    };
+    constexpr double kTarget =
+        0.005; // of all but needles of 1 : 100; cone_weights_test.cpp has more quantiles
+    EXPECT_LE(most(fine), kTarget);
+    EXPECT_GT(most(coarse), kTarget);
 }
 
 /// The largest relative difference of densities and the Jacobian of the map from random numbers to directions.

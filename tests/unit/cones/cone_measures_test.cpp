@@ -6,7 +6,9 @@
 
 #include <nusselt/cones/cone_shading.h>
 
+#include "cones/lobe_part.h"
 #include "cones/round_cases.h"
+#include "cones/round_samples.h"
 
 namespace nusselt_test {
 namespace {
@@ -171,6 +173,38 @@ TEST(ConeLtcTest, PointsLieOnTheLightAndAlongDirections) {
             });
         }
     });
+}
+
+/// The measure is one, and so are all weights.
+template <class T, template <class> class Light>
+void expect_filled(const Light<T>& light, const LtcCoefficients<long double>& coefficients) {
+    const auto ltc = lobe_of<T>(coefficients);
+    const auto technique = by_lobe(light, ltc);
+    EXPECT_NEAR(technique.measure(), 1, 1e-3);
+    for (int i = 0; i < 256; ++i) {
+        const auto s = technique.sample(grid<T>(i, 16));
+        ASSERT_GT(s.pdf, 0);
+        EXPECT_NEAR(ltc.density(s.wi) / s.pdf, 1, 0.05);
+    }
+}
+
+/// In cosine space, such lights are nearly the hemisphere, and all rays of the sweep almost reach the antipode of the pole.
+template <class T>
+void expect_filled_lobes() {
+    const auto v = [](double x, double y, double z) {
+        return nusselt::Vec3<T>{static_cast<T>(x), static_cast<T>(y), static_cast<T>(z)};
+    };
+    expect_filled(nusselt::Sphere<T>{v(0.0197156139, -0.000118859509, 1.00999999), 1},
+                  tilted_lobe(0.3L, 2e-4L, 1, 0));
+    expect_filled(nusselt::Sphere<T>{v(0, 0.5, 1), 1}, tilted_lobe(0, 2e-4L, 1, 0));
+    // Not circular there, so that the ray closest to the antipode is not the highest one.
+    const nusselt::Disk<T> disk{v(0, -0.4, 1), normalize(v(0.644217687, 0, 0.764842187)), 3};
+    for (const long double width : {2e-4L, 2e-3L, 2e-2L}) expect_filled(disk, tilted_lobe(0, width, 1, 0));
+}
+
+TEST(ConeLtcTest, NarrowLobesThatALightFillsHaveConstantWeights) {
+    expect_filled_lobes<float>();
+    expect_filled_lobes<double>();
 }
 
 TEST(ConeLtcTest, WithoutATransformItIsTheCosine) {
