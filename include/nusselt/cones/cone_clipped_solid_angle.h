@@ -21,6 +21,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Space: shading space; the shading point is the origin, the normal +z. wi.z is not negative.
 /// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0.
 /// From inside a sphere or an ellipsoid, all directions above the horizon lead to its surface.
+/// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, int Places = kConePlaces>
 class ConeClippedSolidAngle {
 public:

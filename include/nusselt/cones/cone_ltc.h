@@ -25,6 +25,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Edge cases: nothing of the light in the lobe, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From
 /// inside a sphere or an ellipsoid, the whole lobe leads to its surface.
 /// Samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
+/// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>
 class ConeLtc {
     using Scalar = scalar_t<Real>;

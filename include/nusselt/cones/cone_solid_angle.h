@@ -105,6 +105,7 @@ struct TurnOf<Sphere> {
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an ellipsoid, all
 /// directions lead to its surface.
+/// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light>
 using ConeSolidAngle = SphericalEllipse<Real, Light, detail::TurnOf<Light>::template Type>;
 

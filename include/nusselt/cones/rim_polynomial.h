@@ -2,7 +2,7 @@
 /// (1 - z^2) times a polynomial on [-1, 1], from its values at the nodes of Gauss's quadrature with the weight 1 - z^2.
 ///
 /// The basis are Gegenbauer's polynomials C_k of parameter 3/2, whose integrals against the weight are those of parameter 5/2,
-/// times (1 - z^2)^2: nothing cancels at the ends.
+/// times (1 - z^2)^2: nothing cancels at the ends. Nodes have the digits of double, with long double, too.
 
 #include <nusselt/core/broadcast.h>
 

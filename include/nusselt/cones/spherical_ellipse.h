@@ -52,6 +52,7 @@ struct RimDrop {
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an ellipsoid, all
 /// directions lead to its surface.
+/// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, template <class> class Turn>
 class SphericalEllipse {
     using Scalar = scalar_t<Real>;
