@@ -61,7 +61,7 @@ python: ## the library and the renderer for Python: a wheel in out/python (docs/
 single-header: ## the library in one file: out/nusselt.h (needs cmake only)
 	cmake -D OUTPUT=out/nusselt.h -P scripts/amalgamate.cmake
 
-shaders: ## the GLSL of each technique in one file: out/shaders/*.glsl (needs cmake only)
+shaders: ## each file of the GLSL, with what it includes, in one file: out/shaders/*.glsl (needs cmake only)
 	cmake -D OUTPUT=out/shaders -P scripts/flatten-glsl.cmake
 
 hlsl-msl: ## the techniques in HLSL and Metal Shading Language: out/hlsl, out/msl

@@ -37,14 +37,13 @@ void add_line_kind_options(CLI::App& command, LineKindOptions& options) {
 
 void add_line_options(CLI::App& command, LineOptions& options) {
     const render::LineSettings defaults;
-    CLI::Option* const light_samples =
-        command
-            .add_option(
-                "--light-samples", options.light_samples,
-                "How polygonal lights are sampled: by points, or by lines with exact visibility. Tubes and "
-                "linear lights always get --spp points")
-            ->transform(to_one_of(names_of(render::kLightSamples)))
-            ->group(kLinesGroup);
+    CLI::Option* const light_samples = command
+                                           .add_option("--light-samples", options.light_samples,
+                                                       "How polygonal lights are sampled: by points, or by "
+                                                       "lines with exact visibility. Spheres, disks, "
+                                                       "tubes and linear lights always get --spp points")
+                                           ->transform(to_one_of(names_of(render::kLightSamples)))
+                                           ->group(kLinesGroup);
     constexpr const char* kHidden = "";
     command
         .add_option_function<std::string>("--integrator",

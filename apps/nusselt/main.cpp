@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     using namespace nusselt::app;
     return run_program(
         {"nusselt",
-         "Nusselt renders direct light of polygonal and linear lights with little noise.",
+         "Nusselt renders direct light of polygonal, round and linear lights with little noise.",
          "Examples:\n"
          "  nusselt render scene.pbrt --spp 16 -o image.exr -o image.png\n"
          "  nusselt compare image.exr reference.exr --metrics rmse,flip\n"

@@ -49,4 +49,22 @@ void other_shapes(const Vec& center, float radius, const Vec& u, const Vec& v, c
     measures[2] = of_ellipsoid.measure();
 }
 
+/// The glossy light of a sphere by one sample, and the integral of the lobe over the part of it above the surface.
+float light_of_glossy_sphere(const Sphere<float>& sphere, float emitted, const Vec& point, const Vec& normal,
+                             const Vec& wo, const LtcCoefficients<float>& coefficients, const Vec2<float>& u,
+                             float& share) {
+    float radiance = 0;
+    const auto frame = shading_frame(normal, wo);
+    const Ltc<float> lobe(coefficients); // of the table, at the roughness and the inclination of wo
+    const SphereClippedLtc<float> technique(to_shading_space(sphere, point, frame), lobe);
+    const auto s = technique.sample(u);
+    if (s.pdf > 0 && visible(point, point + frame.to_world(s.p)))
+        radiance += emitted * coefficients.albedo * lobe.density(s.wi) / s.pdf;
+
+    const ConeClippedLtc<float, Sphere, kConeSteps<float>, kFineConePlaces> fine(
+        to_shading_space(sphere, point, frame), lobe);
+    share = fine.measure();
+    return radiance;
+}
+
 } // namespace

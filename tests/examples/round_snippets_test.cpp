@@ -29,4 +29,16 @@ TEST(RoundSnippets, OtherShapesGiveTheirMeasures) {
     EXPECT_NEAR(share, sphere / kPi<float>, 1e-6f);
 }
 
+TEST(RoundSnippets, GlossyLightOfASphereAboveTheSurfaceHasNoNoise) {
+    const Sphere<float> sphere{{0.5f, 0.2f, 2}, 0.5f};
+    const LtcCoefficients<float> coefficients{1, 0.1f, 0.9f, -0.1f, 0.8f, 0.6f};
+    for (const Vec2<float> u : {Vec2<float>{0.1f, 0.2f}, Vec2<float>{0.5f, 0.9f}, Vec2<float>{0.8f, 0.4f}}) {
+        float share = 0;
+        const float radiance =
+            light_of_glossy_sphere(sphere, 3, {0, 0, 0}, {0, 0, 1}, {0.6f, 0, 0.8f}, coefficients, u, share);
+        EXPECT_GT(share, 0.01f);
+        EXPECT_NEAR(radiance, 3 * coefficients.albedo * share, 1e-5f * radiance);
+    }
+}
+
 } // namespace

@@ -6,14 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nusselt::app {
 
 namespace {
-
-constexpr const char* kFormat = "{:<34}{:<13}{:<51}{:<54}{}\n";
 
 /// The kind of light as scenes name it.
 std::string light_of(const TechniqueRow& row) {
@@ -40,9 +42,18 @@ void print_values_of_the_option() {
 
 void print_classes() {
     fmt::print("\nAll techniques of the library:\n\n");
-    fmt::print(kFormat, "class", "light", "density proportional to", "source", "header in nusselt/");
+    using Cells = std::array<std::string, 5>;
+    std::vector<Cells> rows = {{"class", "light", "density proportional to", "source", "header in nusselt/"}};
     for (const TechniqueRow& row : kTechniqueRows)
-        fmt::print(kFormat, row.name, light_of(row), row.density, row.source, row.header);
+        rows.push_back({std::string(row.name), light_of(row), std::string(row.density),
+                        std::string(row.source), std::string(row.header)});
+    std::array<std::size_t, 5> width{};
+    for (const Cells& cells : rows)
+        for (std::size_t i = 0; i < cells.size(); ++i) width[i] = std::max(width[i], cells[i].size() + 2);
+    for (const Cells& cells : rows) {
+        for (std::size_t i = 0; i + 1 < cells.size(); ++i) fmt::print("{:<{}}", cells[i], width[i]);
+        fmt::print("{}\n", cells.back());
+    }
 }
 
 } // namespace
@@ -58,10 +69,13 @@ int run_techniques() {
     print_classes();
     fmt::print(
         "\n"
+        "Spheres, disks, ellipses and ellipsoids take the class of their name, such as "
+        "SphereProjectedSolidAngle;\n"
+        "area is solid angle for spheres and ellipsoids, and projected_solid_angle_biased is not biased.\n\n"
         "Tubes are linear lights with their radius; a line is the limit of a small radius, for\n"
         "Shape \"line\" with \"bool finite\" false. --strategies diffuse+ltc combines the technique with "
         "the\n"
-        "samples of a glossy lobe: PolygonLtc, LineLtc or CylinderLtc.\n"
+        "samples of a glossy lobe: PolygonLtc, LineLtc, CylinderLtc, SphereLtc and so on.\n"
         "--light-samples lines samples whole lines of polygons, by the light that surfaces reflect or by\n"
         "length (Billen 2016; line_samples/line_family.h, estimate/line_light.h).\n\n"
         "Turk 1992     G. Turk, Generating Random Points in Triangles, Graphics Gems I\n"
