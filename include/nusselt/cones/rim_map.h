@@ -138,8 +138,9 @@ public:
         const Real versine =
             detail::versine(detail::hypotenuse(top.aside, top.up) / top.length, -top.along / top.length);
         angles_.set_stretch(max(Real(0.5) * versine, Real(kTiny<Scalar>)));
-        left_ = angle_at({-half_arc, -height_});
-        const Real right = angle_at({half_arc, -height_});
+        // Of a rim that is all but above the horizon, both ends are at half a turn, on either side.
+        left_ = -abs(angle_at({-half_arc, -height_}));
+        const Real right = abs(angle_at({half_arc, -height_}));
         half_range_ = Real(0.5) * (right - left_);
     }
 

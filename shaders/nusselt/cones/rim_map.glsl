@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 6c4fecb43dcb
+// Follows include/nusselt/cones/rim_map.h @ c2eea4871869
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -25,7 +25,10 @@ struct RimMap {
     vec3 p, h;             ///< unit and horizontal: to the pole, and perpendicular to it
     float shear, narrowing, slope, along_across, along_up; ///< from the disk to p, h and n
     vec2 reference;         ///< of angles: the highest point, or the one opposite to the pole; across and up
-    RimAngles angles;       ///< from the reference
+    /// The members of RimAngles, from the reference: WebGL allows four levels of structures, and techniques have as many.
+    float squeeze, stretch;
+    vec2 mid;
+    float mid_length;
     float left, half_range; ///< angles of the map
     bool is_cut;
 };
@@ -69,10 +72,14 @@ vec2 rim_map_from_up(const RimMap self, vec2 disk) {
     return vec2(disk.y * self.up.x - disk.x * self.up.y, disk.y * self.up.y + disk.x * self.up.x);
 }
 
+RimAngles rim_map_angles(const RimMap self) {
+    return RimAngles(self.squeeze, self.stretch, self.mid, self.mid_length);
+}
+
 /// The angle of the map of a point of the rim, given across and up from the axis.
 float rim_map_angle(const RimMap self, vec2 point) {
     float across = nusselt_fma(point.x, self.reference.y, -point.y * self.reference.x);
-    return rim_angle_of(rim_angles_half_of(self.angles, rim_map_from_up(self, point), across));
+    return rim_angle_of(rim_angles_half_of(rim_map_angles(self), rim_map_from_up(self, point), across));
 }
 
 /// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but
@@ -154,11 +161,16 @@ RimMap make_rim_map(const EllipticCone cone) {
     // above the horizon, the highest point is as good, and heights above the horizon have all their digits.
     float lean = self.height > 0.0 ? skew : 0.0;
     self.reference = vec2(lean, 1.0) * (1.0 / sqrt(nusselt_fma(lean, lean, 1.0)));
-    self.angles = make_rim_angles(vec3(self.a, self.b, self.c), rim_map_from_up(self, self.reference));
+    RimAngles angles = make_rim_angles(vec3(self.a, self.b, self.c), rim_map_from_up(self, self.reference));
     RimPoint top = rim_map_point(self, self.reference, self.height > 0.0 ? self.reference.y + self.height : upper);
-    rim_angles_set_stretch(self.angles, nusselt_max(0.5 * versine_of(top.sine, -top.cosine), kNusseltTiny));
-    self.left = rim_map_angle(self, vec2(-half_arc, -self.height));
-    float right = rim_map_angle(self, vec2(half_arc, -self.height));
+    rim_angles_set_stretch(angles, nusselt_max(0.5 * versine_of(top.sine, -top.cosine), kNusseltTiny));
+    self.squeeze = angles.squeeze;
+    self.stretch = angles.stretch;
+    self.mid = angles.mid;
+    self.mid_length = angles.mid_length;
+    // Of a rim that is all but above the horizon, both ends are at half a turn, on either side.
+    self.left = -abs(rim_map_angle(self, vec2(-half_arc, -self.height)));
+    float right = abs(rim_map_angle(self, vec2(half_arc, -self.height)));
     self.half_range = 0.5 * (right - self.left);
     return self;
 }
@@ -176,7 +188,7 @@ vec2 rim_map_towards(const RimMap self, const RimPoint rim, float share) {
 RimTurn rim_map_turned(const RimMap self, float z) {
     float half_zeta = 0.5 * nusselt_fma(self.half_range, z + 1.0, self.left);
     SinCos turn = sincos_half_turn(abs(half_zeta));
-    RimAnglesPoint point = rim_angles_at(self.angles, self.angles.stretch * nusselt_max(turn.cosine, 0.0),
+    RimAnglesPoint point = rim_angles_at(rim_map_angles(self), self.stretch * nusselt_max(turn.cosine, 0.0),
                                          copysign(abs(turn.sine), half_zeta));
     float cosine = point.inverse_length * dot(point.scaled, rim_map_from_up(self, self.reference));
     float across = nusselt_fma(point.across, self.reference.y, cosine * self.reference.x);
