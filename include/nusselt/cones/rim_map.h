@@ -239,7 +239,9 @@ public:
 
     /// 1 minus the cosine of the angle of a point of the rim from the pole.
     NUSSELT_HD static Real versine_of(const Rim& rim) noexcept {
-        return detail::versine(detail::hypotenuse(rim.aside, rim.up) / rim.length, rim.along / rim.length);
+        // Next to the antipode, rounding may take the cosine below -1: by a percent where the point is on the rim.
+        const Real cosine = min(max(rim.along / rim.length, Real(-1)), Real(1));
+        return detail::versine(detail::hypotenuse(rim.aside, rim.up) / rim.length, cosine);
     }
 
     /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.

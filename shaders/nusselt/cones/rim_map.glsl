@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ c2eea4871869
+// Follows include/nusselt/cones/rim_map.h @ a1207819af91
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -237,7 +237,10 @@ float rim_map_solid_density(const RimMap self, const RimTurn turn) {
 float rim_map_solid_scale(const RimMap self) { return self.narrowing * self.slope * self.half_range; }
 
 /// 1 minus the cosine of the angle of a point of the rim from the pole.
-float rim_point_versine(const RimPoint rim) { return versine_of(rim.sine, rim.cosine); }
+float rim_point_versine(const RimPoint rim) {
+    // Next to the antipode, rounding may take the cosine below -1: by a percent where the point is on the rim.
+    return versine_of(rim.sine, nusselt_min(nusselt_max(rim.cosine, -1.0), 1.0));
+}
 
 /// The place z in [-1, 1] at which the ray from the pole through a direction meets the rim.
 float rim_map_place_of(const RimMap self, vec3 wi) {
