@@ -37,7 +37,7 @@ ConeClippedSolidAngle cone_clipped_solid_angle_prepare(const Ellipsoid light) {
     return cone_clipped_solid_angle_of(view_of(light));
 }
 
-/// Estimate of the solid angle above the horizon [sr].
+/// Estimate of the solid angle above the horizon [sr], at most 2 pi.
 float cone_clipped_solid_angle_measure(const ConeClippedSolidAngle self) {
     return self.is_whole ? self.share * self.whole.measure : nusselt_min(self.sweep.measure, 2.0 * kNusseltPi);
 }

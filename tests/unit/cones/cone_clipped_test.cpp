@@ -93,11 +93,13 @@ TEST(ConeClippedSolidAngleTest, WeightsOfWideConesAreNearlyConstantWithMorePlace
         return largest;
     };
     std::vector<double> coarse, fine;
+    double worst = 0; // but of needles
     for (const Place place : {Place::near, Place::needle, Place::touching}) {
         for_each_light(place, 50, [&](const RoundLight& light) {
             with_light<double>(light, [&](const auto& l) { coarse.push_back(spread(clipped(l))); });
             with_light<double>(
                 light, [&](const auto& l) { fine.push_back(spread(clipped<nusselt::kFineConePlaces>(l))); });
+            if (place != Place::needle) worst = std::max(worst, fine.back());
         });
     }
     const auto most = [](std::vector<double>& spreads) {
@@ -106,6 +108,7 @@ TEST(ConeClippedSolidAngleTest, WeightsOfWideConesAreNearlyConstantWithMorePlace
     };
     constexpr double kTarget =
         0.005; // of all but needles of 1 : 100; cone_weights_test.cpp has more quantiles
+    EXPECT_LE(worst, 0.02);
     EXPECT_LE(most(fine), kTarget);
     EXPECT_GT(most(coarse), kTarget);
 }
@@ -158,7 +161,7 @@ double bias_of_wide_disks() {
             const auto pdf = technique.sample({static_cast<T>(x), static_cast<T>(y)}).pdf;
             sum += pdf > 0 ? 1 / static_cast<double>(pdf) : 0;
         }
-        worst = std::max(worst, std::fabs(sum / (kSide * kSide) / (2 * 3.14159265358979) - 1));
+        worst = std::max(worst, std::fabs(sum / (kSide * kSide) / static_cast<double>(2 * kPi) - 1));
     }
     return worst;
 }
