@@ -79,6 +79,24 @@ def test_closed_forms_agree_with_samples(square, rng):
     assert abs((density / sample.pdf).mean() / ltc.lobe_integral(hexagon, lobe) - 1) < 0.02
 
 
+@pytest.mark.parametrize("center", [[0.4, 0.2, 1.5], [0.4, 0.2, 0.1]])  # above the horizon, and cut by it
+def test_measures_of_round_lights_are_closed_forms(center, rng):
+    radius, axes = 0.5, [[0.5, 0.1, 0], [-0.1, 0.4, 0.2], [0, -0.2, 0.6]]
+    lobe = nusselt.LtcTable.frostbite().lobe(0.6, 0.6, 0.04)
+    lights = {"Sphere": [center, radius], "Disk": [center, [0, 0.6, 0.8], radius], "Ellipse": [center, axes[0], axes[1]],
+              "Ellipsoid": [center, axes]}
+    for name, light in lights.items():
+        def measure(technique, *more):
+            return getattr(nusselt, name + technique)(*light, *more).measure()
+        sample = getattr(nusselt, f"{name}SolidAngle")(*light).sample(rng.random((400000, 2)))
+        above, density = sample.wi[:, 2] > 0, ltc.density(lobe, sample.wi)
+        for integral, expected in [(above * sample.wi[:, 2], measure("ProjectedSolidAngle")),
+                                   (density, measure("Ltc", lobe)), (above * density, measure("ClippedLtc", lobe))]:
+            terms = integral / sample.pdf
+            assert abs(terms.mean() - expected) < 5 * terms.std() / np.sqrt(len(terms)), (name, expected)
+            assert abs(terms.mean() - 1.02 * expected) > 5 * terms.std() / np.sqrt(len(terms))
+
+
 def test_tables_are_those_of_the_library():
     table = nusselt.LtcTable.frostbite()
     assert table.entries.ndim == 4 and table.entries.shape[3] == 6 and not table.entries.flags.writeable

@@ -1,3 +1,4 @@
+#include "scene/build/lights/round_light.h"
 #include "scene/build/tessellate.h"
 #include "scene/model/vector_math.h"
 
@@ -79,12 +80,20 @@ void warn(const ShapeDescription& shape, const Pieces& pieces, const std::string
 }
 
 /// Each piece of a curved surface is a light of its own, because no two lie in one plane.
-void warn_of_curved(const ShapeDescription& shape, const Pieces& pieces, Warnings& warnings) {
+/// \param reason why the shape is approximated if it emits, as a part of the sentence; may be empty
+void warn_of_curved(const ShapeDescription& shape, const Pieces& pieces, const std::string& reason,
+                    Warnings& warnings) {
     const std::string count = std::to_string(pieces.columns * pieces.rows);
     warn(shape, pieces,
-         emits(shape) ? ": " + count + " lights, which cost up to " + count + " times as much as one quad"
-                      : "",
+         emits(shape)
+             ? reason + ": " + count + " lights, which cost up to " + count + " times as much as one quad"
+             : "",
          warnings);
+}
+
+/// The reason for warnings of spheres and disks that emit.
+std::string because_not_round(const ShapeDescription& shape) {
+    return ", because " + std::string(why_not_round(shape.geometry, shape.emission));
 }
 
 /// The ratio of the exact area to that of a tessellation. Throws SceneError if one of them is zero.
@@ -127,7 +136,7 @@ Mesh tessellate(const Sphere& sphere, const PlacedShape& placed, Warnings& warni
     const int per_circle = sides(placed);
     const Pieces division = {pieces(sweep, per_circle), pieces(bottom - top, per_circle)};
     Mesh mesh = grid(division, evaluate);
-    warn_of_curved(*placed.shape, division, warnings);
+    warn_of_curved(*placed.shape, division, because_not_round(*placed.shape), warnings);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, sweep * radius * (high - low)));
     for (Float3& p : mesh.positions) p = to_float(scale * to_double(p));
     return mesh;
@@ -144,7 +153,7 @@ Mesh tessellate(const Disk& disk, const PlacedShape& placed, Warnings& warnings)
     };
     const Pieces division = {pieces(sweep, sides(placed, kDiskLightSides)), 1};
     Mesh mesh = grid(division, evaluate);
-    warn(*placed.shape, division, "", warnings);
+    warn(*placed.shape, division, emits(*placed.shape) ? because_not_round(*placed.shape) : "", warnings);
     const double exact_area = 0.5 * sweep * (radius * radius - inner_radius * inner_radius);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, exact_area));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, disk.height});
@@ -162,7 +171,7 @@ Mesh tessellate(const Cylinder& cylinder, const PlacedShape& placed, Warnings& w
     };
     const Pieces division = {pieces(sweep, sides(placed)), 1};
     Mesh mesh = grid(division, evaluate);
-    warn_of_curved(*placed.shape, division, warnings);
+    warn_of_curved(*placed.shape, division, "", warnings);
     const double scale = area_ratio(*placed.shape, mesh, sweep * radius * std::fabs(high - low));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, p.z});
     return mesh;

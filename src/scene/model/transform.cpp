@@ -131,5 +131,6 @@ Double3 transform_normal(const Transform& t, const Double3& n) {
 }
 
 bool is_identity(const Transform& t) { return t.m == Transform{}.m; }
+bool is_affine(const Transform& t) { return t.m[3] == Transform{}.m[3]; }
 
 } // namespace nusselt::scene

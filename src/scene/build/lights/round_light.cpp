@@ -49,6 +49,10 @@ std::optional<RoundLight> shape_of(const Geometry& geometry, const Transform& wo
     return light;
 }
 
+bool has_flat_profile(const Geometry& geometry, const Emission& emission) {
+    return emission.profile != nullptr && std::holds_alternative<Disk>(geometry);
+}
+
 void reverse(RoundLight& light) {
     if (light.model == RoundModel::ellipse)
         light.v = {-light.v.x, -light.v.y, -light.v.z};
@@ -61,9 +65,16 @@ void reverse(RoundLight& light) {
 bool becomes_round_light(const Geometry& geometry, const Emission& emission,
                          const Transform& world_from_object) {
     if (is_black(emission.radiance) || emission.texture != nullptr) return false;
-    if (emission.profile != nullptr && std::holds_alternative<Disk>(geometry)) return false;
+    if (has_flat_profile(geometry, emission)) return false;
     const std::optional<RoundLight> light = shape_of(geometry, world_from_object);
     return light && LightKind<RoundLight>::is_valid(*light);
+}
+
+std::string_view why_not_round(const Geometry& geometry, const Emission& emission) {
+    if (emission.texture != nullptr) return "it emits an image";
+    if (has_flat_profile(geometry, emission)) return "it has a profile";
+    if (!shape_of(geometry, {})) return "it is not whole";
+    return "it is too flat, too long, too small or too large";
 }
 
 BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words) {

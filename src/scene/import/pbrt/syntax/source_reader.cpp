@@ -114,6 +114,8 @@ Transform SourceReader::read_matrix() {
     std::array<double, 16> entries{};
     for (double& entry : entries) entry = read_number();
     if (has_brackets) read_bracket(TokenKind::close_bracket, "]");
+    if (const double scale = entries.back(); scale != 0 && scale != 1)
+        for (double& entry : entries) entry /= scale;
     return from_columns(entries);
 }
 
