@@ -30,7 +30,24 @@ target_compile_options(nusselt_build_flags INTERFACE
     # ccache needs these options for units with precompiled headers.
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     $<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>
+    # Precompiled headers fill the heap beyond the size from which GCC collects garbage: up to a tenth of its time.
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
     -Wall -Wextra -Wpedantic -Wshadow
     # GCC 12 warns of every `"text" + std::string` (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     $<$<BOOL:${NUSSELT_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# The headers of the standard library, precompiled: reading them takes longer than compiling most units takes otherwise.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/standard_headers.cpp CONTENT "")
+add_library(nusselt_standard_headers OBJECT EXCLUDE_FROM_ALL
+    ${PROJECT_BINARY_DIR}/generated/standard_headers.cpp)
+target_link_libraries(nusselt_standard_headers PRIVATE nusselt_build_flags)
+target_precompile_headers(nusselt_standard_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional>
+    <limits> <map> <memory> <optional> <span> <stdexcept> <string> <string_view> <utility> <variant> <vector>)
+
+# nusselt_use_standard_headers(target): compiles the target with these headers. It must have the same flags.
+function(nusselt_use_standard_headers target)
+    target_precompile_headers(${target} REUSE_FROM nusselt_standard_headers)
+    # With them, GCC 12 has two more warnings of `"text" + std::string`.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow>)
+endfunction()
