@@ -79,8 +79,8 @@ public:
         return select(is_whole_, u, sweep_.invert(wi));
     }
 
-    /// Estimate of the solid angle above the horizon [sr], at most 2 pi. Where the horizon cuts lights it is a quadrature
-    /// with as many nodes as places; pdf does not depend on its error.
+    /// Estimate of the solid angle above the horizon [sr], at most 2 pi. Where the horizon cuts lights it is a
+    /// quadrature with as many nodes as places; pdf does not depend on its error.
     NUSSELT_HD Real measure() const noexcept {
         const Real whole = share_ * whole_.measure();
         if (all(is_whole_)) return whole;

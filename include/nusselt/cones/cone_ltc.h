@@ -1,10 +1,11 @@
 #pragma once
-/// Sampling of spheres, disks, ellipses and ellipsoids in proportion to a linearly transformed cosine. With a lobe that fits the
-/// specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
+/// Sampling of spheres, disks, ellipses and ellipsoids in proportion to a linearly transformed cosine. With a lobe that
+/// fits the specular BRDF times cosine, the noise that remains comes from shadows and from the misfit.
 ///
-/// Derived here. A linear map takes elliptic cones to elliptic cones: the columns of the light are transformed before they become
-/// orthogonal. Points of the disk of the image lead back to the light itself, without the inverse of the map. For spheres and
-/// disks the shape of the image is that of E. Heitz and S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines.
+/// Derived here. A linear map takes elliptic cones to elliptic cones: the columns of the light are transformed before
+/// they become orthogonal. Points of the disk of the image lead back to the light itself, without the inverse of the
+/// map. For spheres and disks the shape of the image is that of E. Heitz and S. Hill 2017, Linear-Light Shading with
+/// Linearly Transformed Cosines.
 
 #include <nusselt/cones/cosine_cone.h>
 #include <nusselt/cones/round_lights.h>
@@ -13,17 +14,17 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Steps  of the iteration for images above the horizon of cosine space.
 /// \tparam Places of the rim where the horizon cuts it: kConePlaces, or kFineConePlaces where those do not suffice.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is constant as for
-/// ConeProjectedSolidAngle. density(wi) / pdf is unbiased.
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]: that of the lobe times a factor that is
+/// constant as for ConeProjectedSolidAngle. density(wi) / pdf is unbiased.
 /// Space: shading space with wo in the xz half-plane (shading_frame()); clips to the horizon of cosine space by itself.
-/// Edge cases: nothing of the light in the lobe, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From
-/// inside a sphere or an ellipsoid, the whole lobe leads to its surface.
+/// Edge cases: nothing of the light in the lobe, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure
+/// 0. From inside a sphere or an ellipsoid, the whole lobe leads to its surface.
 /// Samples may lie below the surface, wi.z < 0: they count, with a contribution of zero.
 /// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>

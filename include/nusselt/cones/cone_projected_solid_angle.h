@@ -1,9 +1,9 @@
 #pragma once
-/// Sampling of spheres, disks, ellipses and ellipsoids in proportion to the cosine at the surface. With a Lambertian emitter on a
-/// Lambertian surface, all noise that remains comes from shadows.
+/// Sampling of spheres, disks, ellipses and ellipsoids in proportion to the cosine at the surface. With a Lambertian
+/// emitter on a Lambertian surface, all noise that remains comes from shadows.
 ///
-/// Derived here, see whole_cone.h and cone_sweep.h: all these lights are elliptic cones. Cones that the horizon cuts and those
-/// above it have different maps, both of which are continuous.
+/// Derived here, see whole_cone.h and cone_sweep.h: all these lights are elliptic cones. Cones that the horizon cuts
+/// and those above it have different maps, both of which are continuous.
 
 #include <nusselt/cones/cosine_cone.h>
 #include <nusselt/cones/round_lights.h>
@@ -11,22 +11,22 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 /// \tparam Steps  of the iteration for cones above the horizon.
 /// \tparam Places of the rim where the horizon cuts it: kConePlaces, or kFineConePlaces where those do not suffice.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr]. Above the horizon it is wi.z / measure(). Where the
-/// horizon cuts the light it is that, or, where an interpolant of the measure of a sweep is not exact up to rounding, that times
-/// the ratio of interpolant and sweep: wi.z / pdf is unbiased in any case.
-/// Accuracy: where the horizon cuts the light, measure() is a quadrature with as many nodes as places. With kConePlaces, of lights
-/// near the point or much longer than wide, 99 % are off by at most 6e-3 and a few by much more; with kFineConePlaces, of lights that
-/// touch the point or are 100 times longer than wide, 99 % are off by at most 1e-5 (docs/techniques/elliptic_cone.md). pdf is the
-/// density of the samples in any case.
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]. Above the horizon it is wi.z / measure().
+/// Where the horizon cuts the light it is that, or, where an interpolant of the measure of a sweep is not exact up to
+/// rounding, that times the ratio of interpolant and sweep: wi.z / pdf is unbiased in any case.
+/// Accuracy: where the horizon cuts the light, measure() is a quadrature with as many nodes as places. With
+/// kConePlaces, of lights near the point or much longer than wide, 99 % are off by at most 6e-3 and a few by much more;
+/// with kFineConePlaces, of lights that touch the point or are 100 times longer than wide, 99 % are off by at most 1e-5
+/// (docs/techniques/elliptic_cone.md). pdf is the density of the samples in any case.
 /// Space: shading space; the shading point is the origin, the normal +z. Clips to the horizon by itself.
-/// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a
-/// sphere or an ellipsoid, all directions above the horizon lead to its surface.
+/// Edge cases: no part above the horizon, no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0.
+/// From inside a sphere or an ellipsoid, all directions above the horizon lead to its surface.
 /// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, int Steps = kConeSteps<Real>, int Places = kConePlaces>
 class ConeProjectedSolidAngle {
@@ -47,7 +47,8 @@ public:
         const ConeSample<Real> s = cone_.sample(u);
         const auto dark = !(measure() > Real(0));
         const Vec3<Real> wi = select(dark, Vec3<Real>{Real(0), Real(0), Real(1)}, s.wi);
-        // The point is that of the disk, moved to the ray: close to a large light, directions are more accurate than points.
+        // The point is that of the disk, moved to the ray: close to a large light, directions are more accurate than
+        // points.
         const Real distance = max(dot(wi, view_.point(s.disk, wi)), Real(0));
         return {wi, pdf(wi), (view_.inverse_scale * distance) * wi};
     }

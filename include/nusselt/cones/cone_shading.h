@@ -1,9 +1,9 @@
 #pragma once
 /// Analytic, unshadowed shading with spheres, disks, ellipses and ellipsoids, with the horizon.
 ///
-/// Above the horizon it is the form of E. Heitz and S. Hill 2017, Linear-Light Shading with Linearly Transformed Cosines. Where
-/// the horizon cuts the image, quadrature with 16 nodes along the rim is exact up to rounding for ordinary lights, and needs no
-/// table of form factors (cone_sweep.h has its errors).
+/// Above the horizon it is the form of E. Heitz and S. Hill 2017, Linear-Light Shading with Linearly Transformed
+/// Cosines. Where the horizon cuts the image, quadrature with 16 nodes along the rim is exact up to rounding for
+/// ordinary lights, and needs no table of form factors (cone_sweep.h has its errors).
 ///
 /// Integrals of normalised lobes: times the albedo of the lobe and the radiance of the light they are radiance.
 

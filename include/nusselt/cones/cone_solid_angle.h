@@ -1,9 +1,9 @@
 #pragma once
 /// Sampling of the solid angle of spheres, disks, ellipses and ellipsoids, for surfaces and for volumes.
 ///
-/// Derived here. The map is that of spherical_ellipse.h. The density of the angle around the axis is between 1/2 and 1 for every
-/// cone, and interpolated in one quadrant. For spheres it is constant: the method is that of
-/// C. Wang 1992, Physically correct direct lighting for distribution ray tracing, Graphics Gems III.
+/// Derived here. The map is that of spherical_ellipse.h. The density of the angle around the axis is between 1/2 and 1
+/// for every cone, and interpolated in one quadrant. For spheres it is constant: the method is that of C. Wang 1992,
+/// Physically correct direct lighting for distribution ray tracing, Graphics Gems III.
 
 #include <nusselt/cones/spherical_ellipse.h>
 #include <nusselt/sampling/piecewise_linear.h>
@@ -96,15 +96,16 @@ struct TurnOf<Sphere> {
 
 } // namespace detail
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr]. It is constant for spheres. 1 / pdf is unbiased, and for
-/// other lights within 1 % of the mean. measure() is exact for spheres, and else has a relative error below 1 %.
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr]. It is constant for spheres. 1 / pdf is
+/// unbiased, and for other lights within 1 % of the mean. measure() is exact for spheres, and else has a relative error
+/// below 1 %.
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
-/// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an ellipsoid, all
-/// directions lead to its surface.
+/// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an
+/// ellipsoid, all directions lead to its surface.
 /// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light>
 using ConeSolidAngle = SphericalEllipse<Real, Light, detail::TurnOf<Light>::template Type>;

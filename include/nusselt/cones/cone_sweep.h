@@ -1,18 +1,20 @@
 #pragma once
 /// Sampling of the part of an elliptic cone above a horizon that cuts it, in proportion to the cosine at the surface.
 ///
-/// Derived here. A ray sweeps around a pole p on the horizon, in the middle of the horizon's arc in the cone. At an angle
-/// gamma from the pole the cosine times the solid angle is sin^2(gamma) dgamma times the measure of the sweep, so that gamma
-/// follows the inverse cycloid, up to the angle of the rim. The sweep is described by the point of the rim R that it meets:
+/// Derived here. A ray sweeps around a pole p on the horizon, in the middle of the horizon's arc in the cone. At an
+/// angle gamma from the pole the cosine times the solid angle is sin^2(gamma) dgamma times the measure of the sweep, so
+/// that gamma follows the inverse cycloid, up to the angle of the rim. The sweep is described by the point of the rim R
+/// that it meets:
 ///
 ///     measure = E(gamma) (n . R) (p . R x dR),  E = (2 gamma - sin(2 gamma)) / (4 sin^3(gamma)).
 ///
-/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Two maps
-/// of the rim keep it smooth for large ones: the tangents of angles around the axis are scaled by (b1 / a1)^(3/4), half-way
-/// between the disk of the cone and the ellipse that is its projection along the axis, and those of half-angles from the highest
-/// point by 1 / cos(gamma / 2) there, because rays that almost reach the antipode of the pole turn quickly. 16 places of the
-/// result give its distribution up to rounding for ordinary lights, 64 for nearly all that are close to the point or much longer
-/// than wide (docs/techniques/elliptic_cone.md).
+/// This has no root-like ends and no cases, and tends to a trigonometric polynomial of degree two for small lights. Two
+/// maps of the rim keep it smooth for large ones: the tangents of angles around the axis are scaled by (b1 / a1)^(3/4),
+/// half-way between the disk of the cone and the ellipse that is its projection along the axis, and those of
+/// half-angles from the point opposite to the pole, or the highest one if the axis is below the horizon, by
+/// 1 / cos(gamma / 2) there, because rays that almost reach the antipode of the pole turn quickly. 16 places of the
+/// result give its distribution up to rounding for ordinary lights, 64 for nearly all that are close to the point or
+/// much longer than wide (docs/techniques/elliptic_cone.md).
 
 #include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/rim_distribution.h>

@@ -1,14 +1,14 @@
 #pragma once
-/// The cycloid x - sin(x) and its inverse: the distribution of the angle from a pole on the horizon, weighted by the cosine at
-/// the surface. Both are accurate relative to themselves, for angles of any size.
+/// The cycloid x - sin(x) and its inverse: the distribution of the angle from a pole on the horizon, weighted by the
+/// cosine at the surface. Both are accurate relative to themselves, for angles of any size.
 
 #include <nusselt/core/trig.h>
 #include <nusselt/core/vec.h>
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Cube root of x in [0, 20]. Single precision: relative error at most 3e-7 above 1e-6 and 3e-6 above 1e-9, absolute error at
-/// most 2e-4 below.
+/// Cube root of x in [0, 20]. Single precision: relative error at most 3e-7 above 1e-6 and 3e-6 above 1e-9, absolute
+/// error at most 2e-4 below.
 template <class Real>
 NUSSELT_INLINE Real cube_root(const Real& x) noexcept {
     if constexpr (kIsSingle<Real>) {
@@ -29,7 +29,8 @@ NUSSELT_INLINE Real cube_root(const Real& x) noexcept {
 
 namespace detail {
 
-/// The inverse of the cycloid over its argument z = cbrt(6 y), as a polynomial in z^2, fitted for y <= pi; relative error 8e-8.
+/// The inverse of the cycloid over its argument z = cbrt(6 y), as a polynomial in z^2, fitted for y <= pi; relative
+/// error 8e-8.
 struct InverseCycloid {
     static constexpr int kTerms = 9;
     static constexpr float coefficient(int i) noexcept {

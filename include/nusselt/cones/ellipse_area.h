@@ -7,11 +7,12 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Disk or Ellipse.
 ///
-/// Measure: pdf is the density of wi with respect to solid angle [1/sr], squared distance over area times cosine at the light.
+/// Measure: pdf is the density of wi with respect to solid angle [1/sr], squared distance over area times cosine at the
+/// light.
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
 /// Edge cases: no area, or the origin in the plane of the light: pdf = 0.
 template <class Real, template <class> class Light = Ellipse>

@@ -2,11 +2,12 @@
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid.
 ///
 /// An ellipse C + sigma U + tau V with sigma^2 + tau^2 <= 1 fills the directions B (sigma, tau, 1) with the columns
-/// B = [U V C]. A Lorentz matrix L maps the unit disk to itself, so that B L describes the same cone. A cone is stored as the
-/// L that makes the columns orthogonal. The quadric B^-T J B^-1, J = diag(1, 1, -1), is never formed: a light of the angular
-/// size s has entries of order s^-2 next to -1 there, and float would lose it at s = 3e-4. The Jacobi method is that of
-/// I. Slapnicar and N. Truhar 2000, Relative perturbation theory for hyperbolic singular value problem, doi:10.1016/
-/// S0024-3795(99)00138-2, with one more closed form, that of disks, which takes a single rotation.
+/// B = [U V C]. A Lorentz matrix L maps the unit disk to itself, so that B L describes the same cone. A cone is stored as
+/// the L that makes the columns orthogonal. The quadric B^-T J B^-1, J = diag(1, 1, -1), is never formed: a light of
+/// the angular size s has entries of order s^-2 next to -1 there, and float would lose it at s = 3e-4. The Jacobi
+/// method is that of I. Slapnicar and N. Truhar 2000, Relative perturbation theory for hyperbolic singular value
+/// problem, doi:10.1016/S0024-3795(99)00138-2, with one more closed form, that of disks, which takes a single
+/// rotation.
 
 #include <nusselt/core/broadcast.h>
 #include <nusselt/core/frame.h>
@@ -32,8 +33,8 @@ NUSSELT_INLINE Real over_positive(const Real& numerator, const Real& denominator
 
 } // namespace detail
 
-/// The cone of directions c e3 + a s e1 + b t e2 with s^2 + t^2 <= 1. a / c and b / c are the tangents of its half-angles; c = 0
-/// is a half-space. The points (s, t) are those of the disk of the cone.
+/// The cone of directions c e3 + a s e1 + b t e2 with s^2 + t^2 <= 1. a / c and b / c are the tangents of its
+/// half-angles; c = 0 is a half-space. The points (s, t) are those of the disk of the cone.
 template <class Real>
 struct EllipticCone {
     Vec3<Real> e1, e2, e3;   ///< right-handed, orthonormal; e3 is the axis
@@ -86,8 +87,8 @@ struct ConeColumns {
     Vec3<Real> u, v, c;
     Vec3<Real> row[3];
 
-    /// Rotates u and v by less than 45 degrees, so that they become perpendicular. Those of a circle stay as they are, for
-    /// rounding would turn them anyhow, and samples of neighbouring points would have nothing in common.
+    /// Rotates u and v by less than 45 degrees, so that they become perpendicular. Those of a circle stay as they are,
+    /// for rounding would turn them anyhow, and samples of neighbouring points would have nothing in common.
     NUSSELT_HD void turn() noexcept {
         const Real both = dot(u, v);
         const Real difference = dot(u - v, u + v);
@@ -109,7 +110,8 @@ struct ConeColumns {
         }
     }
 
-    /// Makes a column perpendicular to c by a Lorentz boost. The root is that of (x^2 + c^2)^2 - 4 (x c)^2: nothing cancels.
+    /// Makes a column perpendicular to c by a Lorentz boost. The root is that of (x^2 + c^2)^2 - 4 (x c)^2: nothing
+    /// cancels.
     /// \param entry the entry of a row that belongs to the column.
     template <class Entry>
     NUSSELT_HD void boost(Vec3<Real>& x, const Entry& entry) noexcept {
@@ -180,11 +182,12 @@ NUSSELT_HD inline EllipticCone<Real> cone_of_columns(ConeColumns<Real> k, const 
 
 } // namespace detail
 
-/// The cone of an ellipse. Four sweeps of the Jacobi method leave errors of a few roundings; for ellipses closer than 1e-3 of
-/// their size, float has errors of the rounding over the distance relative to the size.
+/// The cone of an ellipse. Four sweeps of the Jacobi method leave errors of a few roundings; for ellipses closer than
+/// 1e-3 of their size, float has errors of the rounding over the distance relative to the size.
 /// \param u, v   conjugate semi-diameters of an ellipse.
 /// \param centre relative to the origin; all with coordinates of order one.
-/// \param front  a vector to the side of the cone where the light is, should the origin lie in the plane of the ellipse.
+/// \param front  a vector to the side of the cone where the light is, should the origin lie in the plane of the
+///               ellipse.
 template <class Real>
 NUSSELT_HD inline EllipticCone<Real> cone_of_ellipse(const Vec3<Real>& u, const Vec3<Real>& v,
                                                      const Vec3<Real>& centre,
@@ -227,8 +230,8 @@ struct DiskCone {
     Vec3<Real> u, v;
 };
 
-/// A single boost along the direction from the foot of the origin to the centre. Lengths to the nearest and the farthest point
-/// of the rim give all parameters without cancellation, edge-on, near and far.
+/// A single boost along the direction from the foot of the origin to the centre. Lengths to the nearest and the
+/// farthest point of the rim give all parameters without cancellation, edge-on, near and far.
 /// \param centre, radius of order one.
 /// \param normal unit, either side.
 template <class Real>
@@ -267,7 +270,8 @@ NUSSELT_HD inline DiskCone<Real> cone_of_disk(const Vec3<Real>& centre, const Ve
     cone.c = select(within, across, along) * inverse_norm;
     cone.b = radius * inverse_mean;
 
-    // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the normal.
+    // The bisector of both rays. From afar the height of the centre has to survive; close by, the direction of the
+    // normal.
     Vec3<Real> bisector = centre - (delta * radius) * m;
     if (any(within)) {
         const auto over_disk = p < radius;

@@ -6,8 +6,8 @@
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/cones/horizon_gaps.h>
 #include <nusselt/cones/rim_angles.h>
-#include <nusselt/cones/rim_map.h>
 #include <nusselt/core/trig.h>
 
 NUSSELT_NAMESPACE_BEGIN

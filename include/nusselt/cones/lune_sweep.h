@@ -114,8 +114,8 @@ private:
     /// The angle from the near end below which a share of the measure of a half-plane is.
     NUSSELT_HD Real angle_at(const Turn& turn, const Real& share) const noexcept {
         const Real total = whole(turn);
-        // From the pole, the angle is that of the inverse cycloid. For half-planes that meet the cone far from the pole,
-        // its digits do not suffice.
+        // From the pole, the angle is that of the inverse cycloid. For half-planes that meet the cone far from the
+        // pole, its digits do not suffice.
         const auto far_end = sincos_half_turn(turn.gamma);
         const Real fraction = cycloid_fraction(turn.gamma, far_end.sin, far_end.cos);
         const Real lever = turn.gamma * detail::over_positive(Real(1), turn.across);

@@ -10,6 +10,17 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
+namespace detail {
+
+/// 1 minus the cosine of an angle in [0, pi), relative to itself.
+template <class Real>
+NUSSELT_INLINE Real versine(const Real& sine, const Real& cosine) noexcept {
+    const auto forwards = cosine > Real(0);
+    return select(forwards, sine * sine, Real(1) - cosine) / select(forwards, Real(1) + cosine, Real(1));
+}
+
+} // namespace detail
+
 /// \tparam Real float, double, long double or a pack.
 template <class Real>
 struct RimAngles {

@@ -1,52 +1,16 @@
 #pragma once
-/// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is smooth. See
-/// cone_sweep.h and solid_sweep.h.
+/// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
+/// smooth. See cone_sweep.h and solid_sweep.h.
 
 #include <limits>
 
 #include <nusselt/cones/cycloid.h>
 #include <nusselt/cones/elliptic_cone.h>
+#include <nusselt/cones/horizon_gaps.h>
 #include <nusselt/cones/rim_angles.h>
 #include <nusselt/core/trig.h>
-#include <nusselt/geometry/precise_products.h>
 
 NUSSELT_NAMESPACE_BEGIN
-
-namespace detail {
-
-/// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but a sliver
-/// of a cone is on one side of the horizon, the digits that rounding takes are all that counts in the first one.
-template <class Real>
-struct HorizonGaps {
-    Real smaller, larger;
-};
-template <class Real>
-NUSSELT_INLINE HorizonGaps<Real> horizon_gaps(const Vec3<Real>& lengths, const Vec3<Real>& heights,
-                                              const Real& k) noexcept {
-    // Errors of products must not be denormal.
-    const Real scale = reciprocal_power_of_two(k);
-    const WithError<Real> a = exact_product(scale * lengths.x, heights.x);
-    const WithError<Real> b = exact_product(scale * lengths.y, heights.y);
-    const WithError<Real> c = exact_product(scale * lengths.z, heights.z);
-    const WithError<Real> aa = exact_product(a.value, a.value);
-    const WithError<Real> bb = exact_product(b.value, b.value);
-    const WithError<Real> cc = exact_product(c.value, c.value);
-    const WithError<Real> sum = exact_sum(aa.value, bb.value);
-    const WithError<Real> difference = exact_sum(sum.value, -cc.value);
-    const Real mixed = a.value * a.error + b.value * b.error - c.value * c.error;
-    const Real error = (difference.error + sum.error) + ((aa.error + bb.error) - cc.error) + (mixed + mixed);
-    const Real scaled = scale * k, larger = scaled + abs(c.value);
-    return {max(difference.value + error, Real(0)) / (larger * scaled), larger / scaled};
-}
-
-/// 1 minus the cosine of an angle in [0, pi), relative to itself.
-template <class Real>
-NUSSELT_INLINE Real versine(const Real& sine, const Real& cosine) noexcept {
-    const auto forwards = cosine > Real(0);
-    return select(forwards, sine * sine, Real(1) - cosine) / select(forwards, Real(1) + cosine, Real(1));
-}
-
-} // namespace detail
 
 /// \tparam Real float, double, long double or a pack.
 ///

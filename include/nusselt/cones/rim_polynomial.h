@@ -1,8 +1,9 @@
 #pragma once
 /// (1 - z^2) times a polynomial on [-1, 1], from its values at the nodes of Gauss's quadrature with the weight 1 - z^2.
 ///
-/// The basis are Gegenbauer's polynomials C_k of parameter 3/2, whose integrals against the weight are those of parameter 5/2,
-/// times (1 - z^2)^2: nothing cancels at the ends. Nodes have the digits of double, with long double, too.
+/// The basis are Gegenbauer's polynomials C_k of parameter 3/2, whose integrals against the weight are those of
+/// parameter 5/2, times (1 - z^2)^2: nothing cancels at the ends. Nodes have the digits of double, with long double,
+/// too.
 
 #include <nusselt/core/broadcast.h>
 
@@ -40,8 +41,8 @@ struct PositiveNodes<64> {
     }
 };
 
-/// Coefficients of C_0, C_2, ... from sums, and of C_1, C_3, ... from differences, of the values at opposite nodes. The node is the
-/// first index, so that the compiler adds the coefficients side by side.
+/// Coefficients of C_0, C_2, ... from sums, and of C_1, C_3, ... from differences, of the values at opposite nodes. The
+/// node is the first index, so that the compiler adds the coefficients side by side.
 template <class Scalar, int Count>
 struct GegenbauerMatrix {
     static constexpr int kHalf = Count / 2;
@@ -50,7 +51,8 @@ struct GegenbauerMatrix {
     constexpr GegenbauerMatrix() noexcept : even(), odd() {
         for (int i = 0; i < kHalf; ++i) {
             const double x = PositiveNodes<Count>::get(i);
-            // The weight of Lobatto's quadrature is 2 / (n (n - 1) P^2) with the polynomial of degree n - 1 = Count + 1.
+            // The weight of Lobatto's quadrature is 2 / (n (n - 1) P^2) with the polynomial of degree
+            // n - 1 = Count + 1.
             double below = 1, legendre = x;
             for (int k = 2; k <= Count + 1; ++k) {
                 const double next = ((2 * k - 1) * x * legendre - (k - 1) * below) / k;
@@ -70,7 +72,8 @@ struct GegenbauerMatrix {
     }
 };
 
-/// The recurrences of both families: next = factor z current - lower before, and the integral's coefficient of each term.
+/// The recurrences of both families: next = factor z current - lower before, and the integral's coefficient of each
+/// term.
 template <class Scalar, int Count>
 struct GegenbauerRecurrence {
     Scalar factor[Count], lower[Count], integral_factor[Count], integral_lower[Count], integral[Count];
@@ -155,8 +158,8 @@ public:
         return slope_of(z, current);
     }
 
-    /// The integral from -1 to z in [-1, 1]. That of (1 - z^2) C_k is -3 / (k (k + 3)) (1 - z^2)^2 times the polynomial of
-    /// parameter 5/2 and degree k - 1.
+    /// The integral from -1 to z in [-1, 1]. That of (1 - z^2) C_k is -3 / (k (k + 3)) (1 - z^2)^2 times the polynomial
+    /// of parameter 5/2 and degree k - 1.
     NUSSELT_HD Real below(const Real& z) const noexcept {
         constexpr detail::GegenbauerRecurrence<Scalar, Count> kStep;
         Real current = Real(0), next = Real(0);

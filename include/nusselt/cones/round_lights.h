@@ -1,6 +1,6 @@
 #pragma once
-/// Spheres, disks, ellipses and ellipsoids as lights, and what a point sees of them: an elliptic cone, and the way from a point
-/// of its disk back to the light.
+/// Spheres, disks, ellipses and ellipsoids as lights, and what a point sees of them: an elliptic cone, and the way from
+/// a point of its disk back to the light.
 
 #include <utility>
 
@@ -31,7 +31,8 @@ struct Ellipse {
     Vec3<Real> u, v;   ///< conjugate semi-diameters, which need not be perpendicular [m]
 };
 
-/// The points center + x axis[0] + y axis[1] + z axis[2] with x^2 + y^2 + z^2 <= 1. From inside, all directions lead to it.
+/// The points center + x axis[0] + y axis[1] + z axis[2] with x^2 + y^2 + z^2 <= 1. From inside, all directions lead to
+/// it.
 template <class Real>
 struct Ellipsoid {
     Vec3<Real> center;  ///< [m]
@@ -119,8 +120,8 @@ struct SolidLightView {
     /// Whether the light surrounds the origin.
     NUSSELT_HD const mask_t<Real>& is_open() const noexcept { return is_inside; }
 
-    /// The point of the light that belongs to a point of the disk of the cone, the closer one of two; from inside, where a ray
-    /// leaves the light [m]. Tiny and near lights do not cancel.
+    /// The point of the light that belongs to a point of the disk of the cone, the closer one of two; from inside,
+    /// where a ray leaves the light [m]. Tiny and near lights do not cancel.
     NUSSELT_HD Vec3<Real> point(const Vec2<Real>& disk, const Vec3<Real>& wi) const noexcept {
         const Vec2<Real> p = cone.to_light(disk);
         const Real kappa = sqrt(max(Real(1) - dot(p, p), Real(0)));

@@ -1,9 +1,10 @@
 #pragma once
-/// The map from the unit square to the directions of a spherical ellipse, which techniques by solid angle share. They differ in how
-/// they turn around the axis.
+/// The map from the unit square to the directions of a spherical ellipse, which techniques by solid angle share. They
+/// differ in how they turn around the axis.
 ///
-/// Projected along its axis, an elliptic cone is an ellipse. Along each of its radii, the cosine of the angle from the axis is
-/// uniform up to the rim, where it is w. The density of the angle around the axis, the drop, is proportional to 1 / (1 + w).
+/// Projected along its axis, an elliptic cone is an ellipse. Along each of its radii, the cosine of the angle from the
+/// axis is uniform up to the rim, where it is w. The density of the angle around the axis, the drop, is proportional to
+/// 1 / (1 + w).
 
 #include <nusselt/cones/round_lights.h>
 #include <nusselt/core/light_sample.h>
@@ -40,18 +41,19 @@ struct RimDrop {
     }
 };
 
-/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many samples
-///               of one light (see the broadcasting constructor).
+/// \tparam Real  float, double, long double or a pack of float or double: one light and shading point per lane, or many
+///               samples of one light (see the broadcasting constructor).
 /// \tparam Light Sphere, Disk, Ellipse or Ellipsoid.
-/// \tparam Turn  the distribution of the turn around the axis within a quadrant. It is made from a RimDrop. drop(cosine, sine) and
-///               integral() are the drop and its integral over the quadrant, as shares in [0, 1]; invert(share) leads to the part of
-///               the quadrant below which a share of the integral is, and below(part) back; weight(part, cosine, sine) is the
-///               density of invert() over the drop, and kIsExact says that it is 1.
+/// \tparam Turn  the distribution of the turn around the axis within a quadrant. It is made from a RimDrop.
+///               drop(cosine, sine) and integral() are the drop and its integral over the quadrant, as shares in
+///               [0, 1]; invert(share) leads to the part of the quadrant below which a share of the integral is, and
+///               below(part) back; weight(part, cosine, sine) is the density of invert() over the drop, and kIsExact
+///               says that it is 1.
 ///
 /// Measure: pdf is the density of wi with respect to solid angle [1/sr].
 /// Space: any frame with the shading point as origin; no normal is involved and nothing is clipped.
-/// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an ellipsoid, all
-/// directions lead to its surface.
+/// Edge cases: no extent, seen edge-on, an ellipsoid without volume: pdf = 0, measure 0. From inside a sphere or an
+/// ellipsoid, all directions lead to its surface.
 /// Rounding may leave a sliver of a light seen edge-on, with a tiny measure.
 template <class Real, template <class> class Light, template <class> class Turn>
 class SphericalEllipse {

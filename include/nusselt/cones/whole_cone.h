@@ -1,14 +1,15 @@
 #pragma once
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface.
 ///
-/// Derived here. Directions are projected along the axis of the cone, not along the normal. There the cone is exactly an
-/// ellipse, and the cosine times the solid angle is n3 plus an odd function times the area. So each wedge between two diameters
-/// has the share of its area, the angle is uniform, and only the signed radius needs an equation,
+/// Derived here. Directions are projected along the axis of the cone, not along the normal. There the cone is exactly
+/// an ellipse, and the cosine times the solid angle is n3 plus an odd function times the area. So each wedge between
+/// two diameters has the share of its area, the angle is uniform, and only the signed radius needs an equation,
 ///
 ///     r^2 (1 + zeta r Phi(m r)) = |kappa|,  Phi(y) = (asin(y) - y sqrt(1 - y^2)) / y^3,
 ///
-/// with an odd term that is a correction of the order of the angular size. The measure is that of E. Heitz and S. Hill 2017,
-/// Linear-Light Shading with Linearly Transformed Cosines, for ellipses: the cosine of the axis times pi alpha beta.
+/// with an odd term that is a correction of the order of the angular size. The measure is that of E. Heitz and S. Hill
+/// 2017, Linear-Light Shading with Linearly Transformed Cosines, for ellipses: the cosine of the axis times pi alpha
+/// beta.
 
 #include <nusselt/cones/cone_parts.h>
 #include <nusselt/cones/cone_sweep.h>
@@ -23,8 +24,8 @@ NUSSELT_INLINE mask_t<Real> is_above_horizon(const EllipticCone<Real>& cone) noe
 }
 
 /// \tparam Real float, double, long double or a pack.
-/// \tparam Steps of the iteration for the radius. The backward error is 2.7e-2 without a step, 7.8e-4 after one, 9.8e-8 after two
-/// and 2e-15 after three, in units of u.y, for any cone.
+/// \tparam Steps of the iteration for the radius. The backward error is 2.7e-2 without a step, 7.8e-4 after one, 9.8e-8
+/// after two and 2e-15 after three, in units of u.y, for any cone.
 template <class Real, int Steps>
 class WholeCone {
     using Scalar = scalar_t<Real>;
@@ -58,8 +59,8 @@ public:
         broadcast_members<Real>(*this, single);
     }
 
-    /// \param u in [0, 1)^2; u.x turns around the axis, from the x-axis, u.y leads from one side of the cone to the other.
-    /// Continuous in both.
+    /// \param u in [0, 1)^2; u.x turns around the axis, from the x-axis, u.y leads from one side of the cone to the
+    /// other. Continuous in both.
     NUSSELT_HD ConeSample<Real> sample(const Vec2<Real>& u) const noexcept {
         const auto turn = sincos_half_turn(Real(kPi<Scalar>) * u.x);
         const Vec2<Real> direction{start_.x * turn.cos - start_.y * turn.sin,

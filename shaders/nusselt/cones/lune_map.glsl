@@ -1,10 +1,14 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ 4a15c7bf1442
+// Follows include/nusselt/cones/lune_map.h @ b584797529c2
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
-#include "../cones/rim_map.glsl"
+#include "../cones/cycloid.glsl"
+#include "../cones/elliptic_cone.glsl"
+#include "../cones/horizon_gaps.glsl"
+#include "../cones/rim_angles.glsl"
+#include "../core/trig.glsl"
 
 /// The first horizon is z = 0, the second one a plane through the y-axis. Half-planes through the y-axis turn from the
 /// first one to the second one around the pole, that of the two directions of the axis that is closer to the axis of

@@ -1,11 +1,14 @@
 #ifndef NUSSELT_CONES_RIM_ANGLES_GLSL
 #define NUSSELT_CONES_RIM_ANGLES_GLSL
-// Follows include/nusselt/cones/rim_angles.h @ 1393bd0dccf9
+// Follows include/nusselt/cones/rim_angles.h @ d3bd0ed84572
 /// Angles around the rim of an elliptic cone in which densities of sweeps are smooth. Twin of
 /// include/nusselt/cones/rim_angles.h.
 
 #include "../cones/elliptic_cone.glsl"
 #include "../core/trig.glsl"
+
+/// 1 minus the cosine of an angle in [0, pi), relative to itself.
+float versine_of(float sine, float cosine) { return cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine; }
 
 struct RimAngles {
     float squeeze, stretch;

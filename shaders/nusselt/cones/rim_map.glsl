@@ -1,16 +1,13 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ a1207819af91
+// Follows include/nusselt/cones/rim_map.h @ 251155d51f32
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
 #include "../cones/cycloid.glsl"
 #include "../cones/elliptic_cone.glsl"
+#include "../cones/horizon_gaps.glsl"
 #include "../cones/rim_angles.glsl"
-#include "../geometry/precise_products.glsl"
-
-/// 1 minus the cosine of an angle in [0, pi), relative to itself.
-float versine_of(float sine, float cosine) { return cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine; }
 
 /// The horizon is z = 0. Cones that it does not cut have is_cut false and any numbers.
 struct RimMap {
@@ -80,29 +77,6 @@ RimAngles rim_map_angles(const RimMap self) {
 float rim_map_angle(const RimMap self, vec2 point) {
     float across = nusselt_fma(point.x, self.reference.y, -point.y * self.reference.x);
     return rim_angle_of(rim_angles_half_of(rim_map_angles(self), rim_map_from_up(self, point), across));
-}
-
-/// (k - |nc|) / k and (k + |nc|) / k with k^2 = na^2 + nb^2, where n. is the product of a length and a height. If all but
-/// a sliver of a cone is on one side of the horizon, the digits that rounding takes are all that counts in the first one.
-void horizon_gaps(vec3 lengths, vec3 heights, float k, out float smaller, out float larger) {
-    // Errors of products must not be denormal.
-    float scale = reciprocal_power_of_two(k);
-    vec3 scaled_lengths = scale * lengths;
-    NUSSELT_PRECISE vec3 n = scaled_lengths * heights;
-    vec3 n_error = two_product_error(scaled_lengths, heights, n);
-    NUSSELT_PRECISE vec3 square = n * n;
-    vec3 square_error = two_product_error(n, n, square);
-    NUSSELT_PRECISE float sum = square.x + square.y;
-    NUSSELT_PRECISE float difference = sum - square.z;
-    float sum_error = two_sum_error(square.x, square.y, sum);
-    float difference_error = two_sum_error(sum, -square.z, difference);
-    float mixed = n.x * n_error.x + n.y * n_error.y - n.z * n_error.z;
-    float error = (difference_error + sum_error) + (mixed + mixed);
-    error += (square_error.x + square_error.y) - square_error.z;
-    float scaled = scale * k;
-    larger = scaled + abs(n.z);
-    smaller = nusselt_max(difference + error, 0.0) / (larger * scaled);
-    larger /= scaled;
 }
 
 RimMap make_rim_map(const EllipticCone cone) {
