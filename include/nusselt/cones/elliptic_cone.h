@@ -2,9 +2,9 @@
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid.
 ///
 /// An ellipse C + sigma U + tau V with sigma^2 + tau^2 <= 1 fills the directions B (sigma, tau, 1) with the columns
-/// B = [U V C]. A Lorentz matrix L maps the unit disk to itself, so that B L describes the same cone. A cone is stored as
-/// the L that makes the columns orthogonal. The quadric B^-T J B^-1, J = diag(1, 1, -1), is never formed: a light of
-/// the angular size s has entries of order s^-2 next to -1 there, and float would lose it at s = 3e-4. The Jacobi
+/// B = [U V C]. A Lorentz matrix L maps the unit disk to itself, so that B L describes the same cone. A cone is stored
+/// as the L that makes the columns orthogonal. The quadric B^-T J B^-1, J = diag(1, 1, -1), is never formed: a light
+/// of the angular size s has entries of order s^-2 next to -1 there, and float would lose it at s = 3e-4. The Jacobi
 /// method is that of I. Slapnicar and N. Truhar 2000, Relative perturbation theory for hyperbolic singular value
 /// problem, doi:10.1016/S0024-3795(99)00138-2, with one more closed form, that of disks, which takes a single
 /// rotation.
