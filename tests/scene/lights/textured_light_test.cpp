@@ -300,5 +300,14 @@ TEST_F(ImageEmission, HostileImages) {
               "scene.pbrt:3: texture file 'ramp.pfm': 2 negative or non-finite numbers are replaced by 0");
 }
 
+TEST_F(ImageEmission, ReportsTakeTheMeanOverAllPolygons) {
+    const std::vector<PolygonLight> two = {
+        {.texture = 0, .vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, .radiance = {4, 0, 1}},
+        {.texture = 0, .vertices = {{1, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}}, .radiance = {0, 8, 1}}};
+    EXPECT_EQ(LightKind<PolygonLight>::describe(two, 7),
+              "2 polygons, 8 vertices, 4 m^2, textured, mean radiance 1 6 1 W/(sr m^2), power 12.5664 "
+              "75.3982 12.5664 W");
+}
+
 } // namespace
 } // namespace nusselt::scene

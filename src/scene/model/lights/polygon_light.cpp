@@ -120,19 +120,23 @@ double Kind::hit(const PolygonLight& light, const SightRay& ray) {
 
 std::string Kind::describe(std::span<const PolygonLight> lights, double /*scene_radius*/) {
     double sum = 0;
+    Double3 emitted = {0, 0, 0};
     std::size_t vertices = 0;
     for (const PolygonLight& light : lights) {
         sum += area(light);
+        emitted = emitted + area(light) * to_double(light.radiance);
         vertices += light.vertices.size();
     }
     const PolygonLight& first = lights.front();
+    // The polygons of one surface show different parts of an image.
+    const Float3 radiance = to_float((1 / sum) * emitted);
     const double sides = first.two_sided ? 2 : 1;
     return (lights.size() > 1 ? std::to_string(lights.size()) + " polygons, " : "") +
            std::to_string(vertices) + " vertices, " + report_text(sum) + " m^2, " +
            (first.texture >= 0 ? "textured, " : "") +
            (first.texture >= 0 || first.profile >= 0 ? "mean radiance " : "radiance ") +
-           report_text(first.radiance) + " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
-           power_text(lambertian_flux(sides * sum), first.radiance);
+           report_text(radiance) + " W/(sr m^2), " + (first.two_sided ? "two-sided, " : "") +
+           power_text(lambertian_flux(sides * sum), radiance);
 }
 
 std::string Kind::rig_field(const PolygonLight& light) {
