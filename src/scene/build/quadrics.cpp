@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <variant>
 
 namespace nusselt::scene {
 
@@ -71,29 +73,32 @@ Mesh grid(const Pieces& pieces, const Surface& evaluate) {
 
 bool emits(const ShapeDescription& shape) { return !is_black(shape.emission.radiance); }
 
+/// Why a shape that emits is no light of its own shape; empty for others.
+std::string reason_of(const PlacedShape& placed) {
+    const ShapeDescription& shape = *placed.shape;
+    if (!emits(shape) || std::holds_alternative<Cylinder>(shape.geometry)) return "";
+    return ", because " +
+           std::string(why_not_round(shape.geometry, shape.emission, placed.world_from_object));
+}
+
 /// \param consequence  continues the sentence
-void warn(const ShapeDescription& shape, const Pieces& pieces, const std::string& consequence,
+void warn(const PlacedShape& placed, const Pieces& pieces, const std::string& consequence,
           Warnings& warnings) {
-    warnings.add(shape.origin, std::string(shape.kind) + (emits(shape) ? " that emits" : ""),
+    const ShapeDescription& shape = *placed.shape;
+    const std::string reason = reason_of(placed);
+    warnings.add(shape.origin, std::string(shape.kind) + (emits(shape) ? " that emits" : "") + reason,
                  subject_of(shape) + ": approximated by " + std::to_string(pieces.columns) + " x " +
-                     std::to_string(pieces.rows) + " flat pieces of the same area" + consequence);
+                     std::to_string(pieces.rows) + " flat pieces of the same area" + reason + consequence);
 }
 
 /// Each piece of a curved surface is a light of its own, because no two lie in one plane.
-/// \param reason why the shape is approximated if it emits, as a part of the sentence; may be empty
-void warn_of_curved(const ShapeDescription& shape, const Pieces& pieces, const std::string& reason,
-                    Warnings& warnings) {
+void warn_of_curved(const PlacedShape& placed, const Pieces& pieces, Warnings& warnings) {
     const std::string count = std::to_string(pieces.columns * pieces.rows);
-    warn(shape, pieces,
-         emits(shape)
-             ? reason + ": " + count + " lights, which cost up to " + count + " times as much as one quad"
+    warn(placed, pieces,
+         emits(*placed.shape)
+             ? ": " + count + " lights, which cost up to " + count + " times as much as one quad"
              : "",
          warnings);
-}
-
-/// The reason for warnings of spheres and disks that emit.
-std::string because_not_round(const ShapeDescription& shape) {
-    return ", because " + std::string(why_not_round(shape.geometry, shape.emission));
 }
 
 /// The ratio of the exact area to that of a tessellation. Throws SceneError if one of them is zero.
@@ -136,7 +141,7 @@ Mesh tessellate(const Sphere& sphere, const PlacedShape& placed, Warnings& warni
     const int per_circle = sides(placed);
     const Pieces division = {pieces(sweep, per_circle), pieces(bottom - top, per_circle)};
     Mesh mesh = grid(division, evaluate);
-    warn_of_curved(*placed.shape, division, because_not_round(*placed.shape), warnings);
+    warn_of_curved(placed, division, warnings);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, sweep * radius * (high - low)));
     for (Float3& p : mesh.positions) p = to_float(scale * to_double(p));
     return mesh;
@@ -153,7 +158,7 @@ Mesh tessellate(const Disk& disk, const PlacedShape& placed, Warnings& warnings)
     };
     const Pieces division = {pieces(sweep, sides(placed, kDiskLightSides)), 1};
     Mesh mesh = grid(division, evaluate);
-    warn(*placed.shape, division, emits(*placed.shape) ? because_not_round(*placed.shape) : "", warnings);
+    warn(placed, division, "", warnings);
     const double exact_area = 0.5 * sweep * (radius * radius - inner_radius * inner_radius);
     const double scale = std::sqrt(area_ratio(*placed.shape, mesh, exact_area));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, disk.height});
@@ -171,7 +176,7 @@ Mesh tessellate(const Cylinder& cylinder, const PlacedShape& placed, Warnings& w
     };
     const Pieces division = {pieces(sweep, sides(placed)), 1};
     Mesh mesh = grid(division, evaluate);
-    warn_of_curved(*placed.shape, division, "", warnings);
+    warn_of_curved(placed, division, warnings);
     const double scale = area_ratio(*placed.shape, mesh, sweep * radius * std::fabs(high - low));
     for (Float3& p : mesh.positions) p = to_float({scale * p.x, scale * p.y, p.z});
     return mesh;

@@ -131,6 +131,13 @@ Double3 transform_normal(const Transform& t, const Double3& n) {
 }
 
 bool is_identity(const Transform& t) { return t.m == Transform{}.m; }
-bool is_affine(const Transform& t) { return t.m[3] == Transform{}.m[3]; }
+
+bool is_affine(const Transform& t) {
+    constexpr double kTolerance = 1e-9;
+    const Transform affine;
+    for (std::size_t j = 0; j < 4; ++j)
+        if (!(std::fabs(t.m[3][j] - affine.m[3][j]) <= kTolerance)) return false;
+    return true;
+}
 
 } // namespace nusselt::scene

@@ -23,8 +23,10 @@ bool is_whole(const Sphere& sphere) {
 
 bool is_whole(const Disk& disk) { return disk.inner_radius == 0 && disk.sweep_degrees >= 360; }
 
-/// The shape of a light, which emits outwards or to the side of the normal. Nothing for other shapes and parts of these.
+/// The shape of a light, which emits outwards or to the side of the normal. Nothing for other shapes, parts of these, and
+/// transforms with perspective.
 std::optional<RoundLight> shape_of(const Geometry& geometry, const Transform& world_from_object) {
+    if (!is_affine(world_from_object)) return std::nullopt;
     const auto axis = [&](double x, double y, double z) {
         return to_float(transform_vector(world_from_object, {x, y, z}));
     };
@@ -70,11 +72,13 @@ bool becomes_round_light(const Geometry& geometry, const Emission& emission,
     return light && LightKind<RoundLight>::is_valid(*light);
 }
 
-std::string_view why_not_round(const Geometry& geometry, const Emission& emission) {
+std::string_view why_not_round(const Geometry& geometry, const Emission& emission,
+                               const Transform& world_from_object) {
     if (emission.texture != nullptr) return "it emits an image";
-    if (has_flat_profile(geometry, emission)) return "it has a profile";
+    if (has_flat_profile(geometry, emission)) return "its radiance depends on the direction";
     if (!shape_of(geometry, {})) return "it is not whole";
-    return "it is too flat, too long, too small or too large";
+    if (!is_affine(world_from_object)) return "its transform has perspective";
+    return "it is too thin or too small for single precision";
 }
 
 BuiltShape build_round_light(const PlacedShape& placed, const FormatWords& words) {

@@ -16,6 +16,7 @@ namespace {
 /// The factor by which a transform scales the cross section of a cylinder around the z axis; empty if the section does
 /// not stay round and perpendicular to the axis.
 std::optional<double> cross_section_scale(const Transform& world_from_object) {
+    if (!is_affine(world_from_object)) return std::nullopt;
     const Double3 x = transform_vector(world_from_object, {1, 0, 0});
     const Double3 y = transform_vector(world_from_object, {0, 1, 0});
     const Double3 z = transform_vector(world_from_object, {0, 0, 1});

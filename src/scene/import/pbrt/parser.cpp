@@ -117,7 +117,6 @@ private:
     std::filesystem::path resolve(const std::string& name) const { return reader_.resolve(name, location_); }
     void concatenate(const Transform& t) { set_transform(state_.current().ctm * t); }
     void set_transform(const Transform& t);
-    Transform read_matrix();
     MaterialEntry& add_material(const std::string& name, const std::string& type, ParameterList parameters);
     int used_material(MaterialEntry& entry);
     int invisible_light_material();
@@ -311,16 +310,8 @@ void Parser::look_at_directive() {
     concatenate(*t);
 }
 
-Transform Parser::read_matrix() {
-    const Transform t = reader_.read_matrix();
-    if (!is_affine(t))
-        scene_.warnings.add(location_, "transforms with perspective",
-                            "the last row of the matrix is not 0 0 0 1; round shapes ignore it");
-    return t;
-}
-
-void Parser::transform() { set_transform(read_matrix()); }
-void Parser::concat_transform() { concatenate(read_matrix()); }
+void Parser::transform() { set_transform(reader_.read_matrix()); }
+void Parser::concat_transform() { concatenate(reader_.read_matrix()); }
 void Parser::coordinate_system() { coordinate_systems_[read_string()] = state_.current().ctm; }
 
 void Parser::coord_sys_transform() {
