@@ -131,21 +131,27 @@ ShownImage show_image(const std::shared_ptr<const EmissionTexture>& image,
 
 ShownImage ShownImages::show(const std::shared_ptr<const EmissionTexture>& image,
                              std::span<const TexturePoint> corners) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const Entry* const kept = find(image, corners)) return kept->shown;
+    }
+    // Other threads need not wait. Two that miss the same part prepare it twice, and share what the first one keeps.
+    ShownImage shown = show_image(image, corners);
+    const std::scoped_lock lock(mutex_);
+    if (const Entry* const kept = find(image, corners)) return kept->shown;
+    last_[next_] = {image, {corners.begin(), corners.end()}, shown};
+    next_ = (next_ + 1) % last_.size();
+    return shown;
+}
+
+const ShownImages::Entry* ShownImages::find(const std::shared_ptr<const EmissionTexture>& image,
+                                            std::span<const TexturePoint> corners) const {
     const auto is_same = [&](const Entry& entry) {
         return entry.image == image &&
                std::equal(entry.corners.begin(), entry.corners.end(), corners.begin(), corners.end());
     };
-    {
-        const std::scoped_lock lock(mutex_);
-        const auto found = std::find_if(last_.begin(), last_.end(), is_same);
-        if (found != last_.end()) return found->shown;
-    }
-    // Other threads need not wait. Two that miss the same part prepare it twice.
-    ShownImage shown = show_image(image, corners);
-    const std::scoped_lock lock(mutex_);
-    last_[next_] = {image, {corners.begin(), corners.end()}, shown};
-    next_ = (next_ + 1) % last_.size();
-    return shown;
+    const auto found = std::find_if(last_.begin(), last_.end(), is_same);
+    return found != last_.end() ? &*found : nullptr;
 }
 
 } // namespace nusselt::scene

@@ -45,6 +45,10 @@ private:
         std::vector<TexturePoint> corners;
         ShownImage shown;
     };
+    /// Null if it is not kept. The caller holds the lock.
+    const Entry* find(const std::shared_ptr<const EmissionTexture>& image,
+                      std::span<const TexturePoint> corners) const;
+
     /// So few that parts which no light keeps take little memory.
     static constexpr std::size_t kKept = 64;
 
