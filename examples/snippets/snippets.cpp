@@ -115,7 +115,7 @@ float light_in_lobe(const ConvexPolygon<float, 4>& panel, const Vec& point, cons
     const auto frame = shading_frame(normal, wo); // not from_normal(): lobes point away from the eye
     const PolygonLtc<float, 4> technique(to_shading_space(panel, point, frame), lobe);
     const auto s = technique.sample(u);
-    if (s.pdf > 0 && visible(point, point + frame.to_world(s.p)))
+    if (s.pdf > 0 && s.wi.z > 0 && visible(point, point + frame.to_world(s.p)))
         radiance += emitted * coefficients.albedo * lobe.density(s.wi) / s.pdf;
     return radiance;
 }

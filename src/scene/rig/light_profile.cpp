@@ -103,8 +103,8 @@ std::optional<FieldDefect> find_defect(const GivenProfile& given, const Editable
     const auto& lines = light.parts.of<LineLight>();
     const auto& points = light.parts.of<PointLight>();
     if (polygons.size() + lines.size() + points.size() != light.parts.size())
-        return FieldDefect{field, "only polygons, tubes, lines and points can have a profile, and only "
-                                  "those with an area a spread"};
+        return FieldDefect{field, "only polygons, tubes, lines and points can have a profile, only "
+                                  "those with an area a spread, and only polygons a honeycomb"};
     if (!points.empty() && given.spread) return FieldDefect{"spread", "points have no spread"};
     if (polygons.size() != light.parts.size() && given.honeycomb)
         return FieldDefect{"honeycomb", "only polygons have a honeycomb"};

@@ -147,6 +147,7 @@ private:
     void rename(const RigLight& entry, EditableLight& light);
     void move(const RigLight& entry, EditableLight& light, const Double3& offset);
     void replace_shape(const RigLight& entry, EditableLight& light, const Lights& shape);
+    void change_sides(const RigLight& entry, bool two_sided, EditableLight& light) const;
     void change_emission(const RigLight& entry, EditableLight& light) const;
     void warn_of_dark_lights(Warnings& warnings) const;
     void warn_of_dark_portals(Warnings& warnings) const;
@@ -259,8 +260,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     if (changes.shape) replace_shape(entry, light, *changes.shape);
     move(entry, light, offset);
     if (!is_valid(light))
-        fail(entry.where, "light " + in_quotes(light.name) +
-                              " would lie beyond 1e15 m or be too small or too flat to have an area");
+        fail(entry.where,
+             "light " + in_quotes(light.name) + " would lie beyond 1e15 m, or be too small or too flat");
     const auto check = [&](const std::optional<FieldDefect>& defect) {
         if (defect)
             fail(entry.where, defect->field, "light " + in_quotes(light.name) + ": " + defect->message);
@@ -268,22 +269,8 @@ void RigApplication::change(const RigLight& entry, EditableLight& light, const D
     check(change_image(changes.image, scene_, light));
     if (changes.map_rotation) check(turn_map(*changes.map_rotation, light));
     check(change_profile(changes.profile, scene_, light));
-    change_emission(entry, light);
-    if (changes.two_sided) {
-        const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
-        if (const LightList* const list = find_part(light, has_one_side))
-            fail(entry.where, "two_sided",
-                 "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
-                     ", which has no second side");
-        bool is_changed = false;
-        for (LightList& list : light.parts) {
-            for (std::size_t i = 0; i < list.size(); ++i) {
-                is_changed |= *list.two_sided(i) != *changes.two_sided;
-                *list.two_sided(i) = *changes.two_sided;
-            }
-        }
-        if (is_changed) refit_profile(scene_, light);
-    }
+    if (changes.two_sided) change_sides(entry, *changes.two_sided, light);
+    change_emission(entry, light); // a power is that of both sides
     if (changes.enabled) light.is_enabled = *changes.enabled;
     // Most lights have nothing that could leave them dark, and there may be a million of them.
     changed_by_.erase(light.name);
@@ -347,6 +334,22 @@ void RigApplication::move(const RigLight& entry, EditableLight& light, const Dou
     if (changes.move) transform = translation(*changes.move) * transform;
     transform = translation(offset) * transform;
     if (!is_identity(transform)) editor_.transform(light, transform);
+}
+
+void RigApplication::change_sides(const RigLight& entry, bool two_sided, EditableLight& light) const {
+    const auto has_one_side = [](const LightList& list) { return list.two_sided(0) == nullptr; };
+    if (const LightList* const list = find_part(light, has_one_side))
+        fail(entry.where, "two_sided",
+             "light " + in_quotes(light.name) + " is " + with_article(list->noun()) +
+                 ", which has no second side");
+    bool is_changed = false;
+    for (LightList& list : light.parts) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            is_changed |= *list.two_sided(i) != two_sided;
+            *list.two_sided(i) = two_sided;
+        }
+    }
+    if (is_changed) refit_profile(scene_, light);
 }
 
 void RigApplication::change_emission(const RigLight& entry, EditableLight& light) const {
