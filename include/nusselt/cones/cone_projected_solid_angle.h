@@ -62,8 +62,8 @@ public:
     /// The random numbers for which sample() returns wi, a unit direction on the light.
     NUSSELT_HD Vec2<Real> invert(const Vec3<Real>& wi) const noexcept { return cone_.invert(wi); }
 
-    /// Projected solid angle of the part of the light above the horizon [sr].
-    NUSSELT_HD Real measure() const noexcept { return cone_.measure(); }
+    /// Projected solid angle of the part of the light above the horizon, at most pi [sr].
+    NUSSELT_HD Real measure() const noexcept { return min(cone_.measure(), Real(kPi<scalar_t<Real>>)); }
 
 private:
     LightView<Light<Real>> view_;

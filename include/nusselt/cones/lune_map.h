@@ -43,11 +43,9 @@ public:
     /// Without a lane that is clipped, only is_clipped() and is_lit() are valid.
     /// \param normal of the second horizon, (x, 0, z), of unit length.
     NUSSELT_HD LuneMap(const EllipticCone<Real>& cone, const Vec3<Real>& normal) noexcept {
-        // A half-space is a cone with a large angle; so nothing is infinite.
-        constexpr Scalar kNarrowest = 8 * std::numeric_limits<Scalar>::epsilon();
         a_ = cone.a;
         b_ = cone.b;
-        c_ = max(cone.c, Real(kNarrowest));
+        c_ = detail::bounded_c(cone);
         const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
 
         // The pole, as a homogeneous point of the disk.

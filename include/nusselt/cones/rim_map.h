@@ -40,11 +40,9 @@ public:
     RimMap() = default;
 
     NUSSELT_HD explicit RimMap(const EllipticCone<Real>& cone) noexcept {
-        // A half-space is a cone with a large angle; so nothing is infinite.
-        constexpr Scalar kNarrowest = 8 * std::numeric_limits<Scalar>::epsilon();
         a_ = cone.a;
         b_ = cone.b;
-        c_ = max(cone.c, Real(kNarrowest));
+        c_ = detail::bounded_c(cone);
 
         // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
         const Real na = cone.e1.z * a_, nb = cone.e2.z * b_, nc = cone.e3.z * c_;

@@ -20,7 +20,7 @@ NUSSELT_NAMESPACE_BEGIN
 /// Whether the horizon z = 0 does not cut a cone that is above it.
 template <class Real>
 NUSSELT_INLINE mask_t<Real> is_above_horizon(const EllipticCone<Real>& cone) noexcept {
-    return cone.e3.z * cone.c >= detail::hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    return cone.e3.z * detail::bounded_c(cone) >= detail::hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
 }
 
 /// \tparam Real float, double, long double or a pack.

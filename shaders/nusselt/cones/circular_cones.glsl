@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CIRCULAR_CONES_GLSL
 #define NUSSELT_CONES_CIRCULAR_CONES_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 115a357f1c8b
+// Follows include/nusselt/cones/elliptic_cone.h @ fdbbbd749d34
 /// The cones of spheres and disks without iteration. Twin of the second half of include/nusselt/cones/elliptic_cone.h.
 
 #include "../cones/elliptic_cone.glsl"

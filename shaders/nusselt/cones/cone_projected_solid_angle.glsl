@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CONE_PROJECTED_SOLID_ANGLE_GLSL
 #define NUSSELT_CONES_CONE_PROJECTED_SOLID_ANGLE_GLSL
-// Follows include/nusselt/cones/cone_projected_solid_angle.h @ 6a9f447baf5c
+// Follows include/nusselt/cones/cone_projected_solid_angle.h @ 87c97e7e9d05
 /// Sampling of ellipses and ellipsoids (disks and spheres: disk_light(), sphere_light()) in proportion to the cosine
 /// at the surface. Twin of include/nusselt/cones/cone_projected_solid_angle.h, which has the measure and the edge
 /// cases.
@@ -27,8 +27,10 @@ ConeProjectedSolidAngle cone_projected_solid_angle_prepare(const Ellipsoid light
     return cone_projected_solid_angle_of(view_of(light));
 }
 
-/// Projected solid angle of the part of the light above the horizon [sr].
-float cone_projected_solid_angle_measure(const ConeProjectedSolidAngle self) { return cosine_cone_measure(self.cone); }
+/// Projected solid angle of the part of the light above the horizon, at most pi [sr].
+float cone_projected_solid_angle_measure(const ConeProjectedSolidAngle self) {
+    return nusselt_min(cosine_cone_measure(self.cone), kNusseltPi);
+}
 
 /// \param wi a unit direction towards the light.
 float cone_projected_solid_angle_pdf(const ConeProjectedSolidAngle self, vec3 wi) {

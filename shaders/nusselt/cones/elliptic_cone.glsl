@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 115a357f1c8b
+// Follows include/nusselt/cones/elliptic_cone.h @ fdbbbd749d34
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -26,6 +26,10 @@ struct EllipticCone {
     vec3 row0, row1, row2; ///< of the Lorentz matrix that leads to the disk of the light
     bool is_visible;       ///< false for a light without extent, and on its rim
 };
+
+/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that nothing is
+/// infinite. All that decide whether a horizon cuts a cone have to take it.
+float bounded_c(const EllipticCone cone) { return nusselt_max(cone.c, 8.0 * kNusseltEpsilon); }
 
 /// The point (sigma, tau) of the unit disk from which the light was made.
 /// \param disk a point of the disk of the cone.

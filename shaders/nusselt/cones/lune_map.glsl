@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ b584797529c2
+// Follows include/nusselt/cones/lune_map.h @ aa5f59606409
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -125,7 +125,7 @@ LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
     LuneMap self;
     float a = cone.a;
     float b = cone.b;
-    float c = nusselt_max(cone.c, 8.0 * kNusseltEpsilon);
+    float c = bounded_c(cone);
     self.lengths = vec3(a, b, c);
     bool wide = nusselt_min(a, b) > kNusseltTiny;
 

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 251155d51f32
+// Follows include/nusselt/cones/rim_map.h @ 00c1dab94681
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -84,7 +84,7 @@ RimMap make_rim_map(const EllipticCone cone) {
     RimMap self;
     self.a = cone.a;
     self.b = cone.b;
-    self.c = nusselt_max(cone.c, 8.0 * kNusseltEpsilon);
+    self.c = bounded_c(cone);
 
     // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
     float na = cone.e1.z * self.a;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ d4a39e216730
+// Follows include/nusselt/cones/whole_cone.h @ a3cc95dd2b57
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
@@ -8,7 +8,7 @@
 
 /// Whether the horizon z = 0 does not cut a cone that is above it.
 bool is_above_horizon(const EllipticCone cone) {
-    return cone.e3.z * cone.c >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    return cone.e3.z * bounded_c(cone) >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
 }
 
 struct WholeCone {

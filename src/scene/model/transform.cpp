@@ -134,10 +134,11 @@ bool is_identity(const Transform& t) { return t.m == Transform{}.m; }
 
 bool is_affine(const Transform& t) {
     constexpr double kTolerance = 1e-9;
-    const Transform affine;
-    for (std::size_t j = 0; j < 4; ++j)
-        if (!(std::fabs(t.m[3][j] - affine.m[3][j]) <= kTolerance)) return false;
-    return true;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const double scale = std::max({std::fabs(t.m[0][j]), std::fabs(t.m[1][j]), std::fabs(t.m[2][j])});
+        if (!(std::fabs(t.m[3][j]) <= kTolerance * scale)) return false;
+    }
+    return std::fabs(t.m[3][3] - 1) <= kTolerance;
 }
 
 } // namespace nusselt::scene

@@ -39,7 +39,7 @@ Double3 transform_vector(const Transform& t, const Double3& v);
 /// The result is zero for transforms of a rank below two.
 Double3 transform_normal(const Transform& t, const Double3& n);
 bool is_identity(const Transform& t);
-/// Whether the last row is 0 0 0 1 up to rounding: there is no perspective.
+/// Whether the last row is 0 0 0 1 up to rounding, so that there is no perspective in shapes of up to a kilometre.
 bool is_affine(const Transform& t);
 
 } // namespace nusselt::scene

@@ -1,9 +1,12 @@
 /// Tests of spheres, disks, ellipses and ellipsoids by solid angle and by lobes, and of analytic shading with them.
 
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include <nusselt/cones/cone_clipped_ltc.h>
+#include <nusselt/cones/cone_clipped_solid_angle.h>
 #include <nusselt/cones/cone_shading.h>
 
 #include "cones/lobe_part.h"
@@ -215,6 +218,39 @@ TEST(ConeLtcTest, WithoutATransformItIsTheCosine) {
     EXPECT_NEAR(round_diffuse_integral(disk) / lobe.measure(), 1, 1e-7);
     const auto s = lobe.sample({0.3, 0.7});
     EXPECT_NEAR(s.pdf / cosine.pdf(s.wi), 1, 1e-6);
+}
+
+/// A disk that fills the half-space above the surface but for a tilt, which rounding may cause.
+template <class T>
+void expect_lit_half_spaces() {
+    constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
+    const Ltc<T> diffuse(LtcCoefficients<T>{1, 0, 1, 0, 1, 1});
+    for (const T height : {T(0), T(0.01) * kEpsilon, kEpsilon, 4 * kEpsilon, 20 * kEpsilon}) {
+        for (const T tilt :
+             {T(0), T(0.1) * kEpsilon, kEpsilon, 3 * kEpsilon, 7 * kEpsilon, 9 * kEpsilon, 50 * kEpsilon}) {
+            const nusselt::Disk<T> disk{
+                {T(0.3), T(0.2), height}, normalize(nusselt::Vec3<T>{tilt, -tilt / 2, 1}), 2};
+            const auto expect_lit = [&](const auto& technique, T measure) {
+                EXPECT_NEAR(technique.measure() / measure, 1, T(1e-3)) << height << " " << tilt;
+                EXPECT_LE(technique.measure(), measure * (1 + 4 * kEpsilon));
+                const auto s = technique.sample({T(0.3), T(0.7)});
+                EXPECT_GT(s.pdf, 0) << height << " " << tilt;
+                EXPECT_GT(s.wi.z, 0);
+            };
+            expect_lit(ConeProjectedSolidAngle<T, nusselt::Disk>(disk), static_cast<T>(kPi));
+            expect_lit(nusselt::ConeClippedSolidAngle<T, nusselt::Disk>(disk), static_cast<T>(2 * kPi));
+            expect_lit(ConeLtc<T, nusselt::Disk>(disk, diffuse), 1);
+            expect_lit(nusselt::ConeClippedLtc<T, nusselt::Disk>(disk, diffuse), 1);
+        }
+    }
+}
+
+TEST(ConeMeasuresTest, HalfSpacesThatRoundingTiltsAreLit) {
+    expect_lit_half_spaces<float>();
+    expect_lit_half_spaces<double>();
+    const nusselt::Sphere<float> sphere{{-0x1p-20f, -0x1p-20f, 2}, 2};
+    const ConeProjectedSolidAngle<float, nusselt::Sphere> technique(sphere);
+    EXPECT_NEAR(technique.measure() / static_cast<float>(kPi), 1, 1e-5f);
 }
 
 } // namespace
