@@ -69,8 +69,8 @@ struct EllipticCone {
 
 namespace detail {
 
-/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that nothing is
-/// infinite. All that decide whether a horizon cuts a cone have to take it.
+/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that
+/// nothing is infinite.
 template <class Real>
 NUSSELT_INLINE Real bounded_c(const EllipticCone<Real>& cone) noexcept {
     return max(cone.c, Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()));

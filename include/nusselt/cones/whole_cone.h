@@ -20,7 +20,10 @@ NUSSELT_NAMESPACE_BEGIN
 /// Whether the horizon z = 0 does not cut a cone that is above it.
 template <class Real>
 NUSSELT_INLINE mask_t<Real> is_above_horizon(const EllipticCone<Real>& cone) noexcept {
-    return cone.e3.z * detail::bounded_c(cone) >= detail::hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    // Half-spaces that rounding tilts are not cut by RimMap. In thin cones, its bound is not one of rounding.
+    const auto is_wide = min(cone.a, cone.b) > Real(1.0f / 64);
+    const Real c = select(is_wide, detail::bounded_c(cone), cone.c);
+    return cone.e3.z * c >= detail::hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
 }
 
 /// \tparam Real float, double, long double or a pack.

@@ -27,8 +27,8 @@ struct EllipticCone {
     bool is_visible;       ///< false for a light without extent, and on its rim
 };
 
-/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that nothing is
-/// infinite. All that decide whether a horizon cuts a cone have to take it.
+/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that
+/// nothing is infinite.
 float bounded_c(const EllipticCone cone) { return nusselt_max(cone.c, 8.0 * kNusseltEpsilon); }
 
 /// The point (sigma, tau) of the unit disk from which the light was made.

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ a3cc95dd2b57
+// Follows include/nusselt/cones/whole_cone.h @ 40760bdd02c0
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
@@ -8,7 +8,9 @@
 
 /// Whether the horizon z = 0 does not cut a cone that is above it.
 bool is_above_horizon(const EllipticCone cone) {
-    return cone.e3.z * bounded_c(cone) >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    // Half-spaces that rounding tilts are not cut by RimMap. In thin cones, its bound is not one of rounding.
+    float c = nusselt_min(cone.a, cone.b) > 1.0 / 64.0 ? bounded_c(cone) : cone.c;
+    return cone.e3.z * c >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
 }
 
 struct WholeCone {
