@@ -43,7 +43,7 @@ public:
     std::string read_type();
     double read_number();
     Double3 read_vector();
-    /// Sixteen numbers column by column, with or without brackets, over the last one unless it is 0.
+    /// Sixteen numbers column by column, with or without brackets. They are divided by the last one unless it is 0.
     Transform read_matrix();
 
 private:
