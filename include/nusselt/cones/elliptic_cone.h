@@ -69,11 +69,13 @@ struct EllipticCone {
 
 namespace detail {
 
-/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that
-/// nothing is infinite.
+/// c, or the least one for which places on the rim have digits left: half-spaces count as cones with large angles. A
+/// half-space whose tilt is not a matter of rounding stays cut.
 template <class Real>
 NUSSELT_INLINE Real bounded_c(const EllipticCone<Real>& cone) noexcept {
-    return max(cone.c, Real(8 * std::numeric_limits<scalar_t<Real>>::epsilon()));
+    constexpr auto kRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
+    const Real narrow = min(cone.a, cone.b);
+    return max(cone.c, max(Real(kRounding) * narrow, Real(kRounding) - narrow));
 }
 
 } // namespace detail

@@ -17,13 +17,16 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Whether the horizon z = 0 does not cut a cone that is above it.
+/// Whether the horizon z = 0 does not cut a cone that is above it, or only because rounding tilts the cone: half-spaces
+/// would lose all but a sliver otherwise.
 template <class Real>
 NUSSELT_INLINE mask_t<Real> is_above_horizon(const EllipticCone<Real>& cone) noexcept {
-    // Half-spaces that rounding tilts are not cut by RimMap. In thin cones, its bound is not one of rounding.
-    const auto is_wide = min(cone.a, cone.b) > Real(1.0f / 64);
-    const Real c = select(is_wide, detail::bounded_c(cone), cone.c);
-    return cone.e3.z * c >= detail::hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    const auto extent_of = [](const Real& height, const Real& tangent) {
+        constexpr auto kRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
+        return max(abs(height) - Real(kRounding), Real(0)) * tangent;
+    };
+    return cone.e3.z * cone.c >=
+           detail::hypotenuse(extent_of(cone.e1.z, cone.a), extent_of(cone.e2.z, cone.b));
 }
 
 /// \tparam Real float, double, long double or a pack.

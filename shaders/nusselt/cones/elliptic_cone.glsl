@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ fdbbbd749d34
+// Follows include/nusselt/cones/elliptic_cone.h @ 2fbeb42a4191
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -27,9 +27,13 @@ struct EllipticCone {
     bool is_visible;       ///< false for a light without extent, and on its rim
 };
 
-/// c, or the least one of cones that a horizon can cut: a half-space counts as a cone with a large angle, so that
-/// nothing is infinite.
-float bounded_c(const EllipticCone cone) { return nusselt_max(cone.c, 8.0 * kNusseltEpsilon); }
+/// c, or the least one for which places on the rim have digits left: half-spaces count as cones with large angles. A
+/// half-space whose tilt is not a matter of rounding stays cut.
+float bounded_c(const EllipticCone cone) {
+    float rounding = 8.0 * kNusseltEpsilon;
+    float narrow = nusselt_min(cone.a, cone.b);
+    return nusselt_max(cone.c, nusselt_max(rounding * narrow, rounding - narrow));
+}
 
 /// The point (sigma, tau) of the unit disk from which the light was made.
 /// \param disk a point of the disk of the cone.

@@ -1,16 +1,20 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ 40760bdd02c0
+// Follows include/nusselt/cones/whole_cone.h @ 2aecc6785808
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
 #include "../cones/cone_sweep.glsl"
 
-/// Whether the horizon z = 0 does not cut a cone that is above it.
+float whole_cone_extent(float height, float tangent) {
+    return nusselt_max(abs(height) - 8.0 * kNusseltEpsilon, 0.0) * tangent;
+}
+
+/// Whether the horizon z = 0 does not cut a cone that is above it, or only because rounding tilts the cone: half-spaces
+/// would lose all but a sliver otherwise.
 bool is_above_horizon(const EllipticCone cone) {
-    // Half-spaces that rounding tilts are not cut by RimMap. In thin cones, its bound is not one of rounding.
-    float c = nusselt_min(cone.a, cone.b) > 1.0 / 64.0 ? bounded_c(cone) : cone.c;
-    return cone.e3.z * c >= hypotenuse(cone.e1.z * cone.a, cone.e2.z * cone.b);
+    return cone.e3.z * cone.c >=
+           hypotenuse(whole_cone_extent(cone.e1.z, cone.a), whole_cone_extent(cone.e2.z, cone.b));
 }
 
 struct WholeCone {

@@ -245,9 +245,37 @@ void expect_lit_half_spaces() {
     }
 }
 
+/// The same for long lights.
+template <class T>
+void expect_lit_long_half_spaces() {
+    constexpr T kEpsilon = std::numeric_limits<T>::epsilon();
+    const Ltc<T> diffuse(LtcCoefficients<T>{1, 0, 1, 0, 1, 1});
+    for (const T width : {T(1) / 32, T(1) / 100, T(1) / 1000}) {
+        for (const T tilt : {T(0), T(0.1) * kEpsilon, kEpsilon, 7 * kEpsilon}) {
+            for (const nusselt::Vec2<T> slope : {nusselt::Vec2<T>{tilt, 0}, nusselt::Vec2<T>{0, tilt}}) {
+                const nusselt::Ellipse<T> ellipse{
+                    {0, 0, T(0.01) * kEpsilon}, {1, 0, slope.x}, {0, width, slope.y * width}};
+                const auto expect_lit = [&](const auto& technique, T measure) {
+                    EXPECT_NEAR(technique.measure() / measure, 1, T(1e-5))
+                        << width << " " << slope.x << " " << slope.y;
+                    EXPECT_GT(technique.sample({T(0.3), T(0.7)}).pdf, 0)
+                        << width << " " << slope.x << " " << slope.y;
+                };
+                expect_lit(ConeProjectedSolidAngle<T, nusselt::Ellipse>(ellipse), static_cast<T>(kPi));
+                expect_lit(nusselt::ConeClippedSolidAngle<T, nusselt::Ellipse>(ellipse),
+                           static_cast<T>(2 * kPi));
+                expect_lit(ConeLtc<T, nusselt::Ellipse>(ellipse, diffuse), 1);
+                expect_lit(nusselt::ConeClippedLtc<T, nusselt::Ellipse>(ellipse, diffuse), 1);
+            }
+        }
+    }
+}
+
 TEST(ConeMeasuresTest, HalfSpacesThatRoundingTiltsAreLit) {
     expect_lit_half_spaces<float>();
     expect_lit_half_spaces<double>();
+    expect_lit_long_half_spaces<float>();
+    expect_lit_long_half_spaces<double>();
     const nusselt::Sphere<float> sphere{{-0x1p-20f, -0x1p-20f, 2}, 2};
     const ConeProjectedSolidAngle<float, nusselt::Sphere> technique(sphere);
     EXPECT_NEAR(technique.measure() / static_cast<float>(kPi), 1, 1e-5f);
