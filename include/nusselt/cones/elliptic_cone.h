@@ -69,13 +69,18 @@ struct EllipticCone {
 
 namespace detail {
 
-/// c, or the least one for which places on the rim have digits left: half-spaces count as cones with large angles. A
-/// half-space whose tilt is not a matter of rounding stays cut.
+/// The least angle that is not a matter of rounding.
 template <class Real>
-NUSSELT_INLINE Real bounded_c(const EllipticCone<Real>& cone) noexcept {
-    constexpr auto kRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
-    const Real narrow = min(cone.a, cone.b);
-    return max(cone.c, max(Real(kRounding) * narrow, Real(kRounding) - narrow));
+inline constexpr auto kConeRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
+
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if they may be due to rounding:
+/// otherwise, the horizon would cut half-spaces whose rim lies in it.
+template <class Real>
+NUSSELT_INLINE Vec3<Real> heights_of_axes(const EllipticCone<Real>& cone) noexcept {
+    const auto significant = [](const Real& height) {
+        return select(abs(height) > Real(kConeRounding<Real>), height, Real(0));
+    };
+    return {significant(cone.e1.z), significant(cone.e2.z), cone.e3.z};
 }
 
 } // namespace detail

@@ -45,7 +45,8 @@ public:
     NUSSELT_HD LuneMap(const EllipticCone<Real>& cone, const Vec3<Real>& normal) noexcept {
         a_ = cone.a;
         b_ = cone.b;
-        c_ = detail::bounded_c(cone);
+        // Half-spaces count as cones with large angles, for which points of the rim have digits left.
+        c_ = max(cone.c, Real(detail::kConeRounding<Real>));
         const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
 
         // The pole, as a homogeneous point of the disk.

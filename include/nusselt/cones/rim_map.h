@@ -42,18 +42,24 @@ public:
     NUSSELT_HD explicit RimMap(const EllipticCone<Real>& cone) noexcept {
         a_ = cone.a;
         b_ = cone.b;
-        c_ = detail::bounded_c(cone);
 
         // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
-        const Real na = cone.e1.z * a_, nb = cone.e2.z * b_, nc = cone.e3.z * c_;
+        const Vec3<Real> height = detail::heights_of_axes(cone);
+        const Real na = height.x * a_, nb = height.y * b_;
         const Real k = detail::hypotenuse(na, nb);
-        const auto crosses = abs(nc) < k;
-        const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
-        is_cut_ = crosses & wide;
-        const Real inverse_k = Real(1) / select(is_cut_, k, Real(1));
-        up_ = {select(is_cut_, na * inverse_k, Real(1)), select(is_cut_, nb * inverse_k, Real(0))};
-        const auto gaps = detail::horizon_gaps({a_, b_, c_}, {cone.e1.z, cone.e2.z, cone.e3.z},
-                                               select(is_cut_, k, Real(1)));
+        const auto rises = (k > Real(0)) & (min(a_, b_) > Real(kTiny<Scalar>));
+        const Real inverse = Real(1) / select(rises, k, Real(1));
+        up_ = {select(rises, na * inverse, Real(1)), select(rises, nb * inverse, Real(0))};
+        // Half-spaces count as cones with large angles, for which heights of points of the rim have digits left and, of a
+        // rim that is all but a line, so have points at both ends.
+        constexpr Scalar kRounding = detail::kConeRounding<Real>;
+        const Real extent_up = detail::hypotenuse(a_ * up_.x, b_ * up_.y);
+        c_ = max(cone.c, max(Real(kRounding) * extent_up, Real(kRounding) - min(a_, b_)));
+        const Real nc = height.z * c_;
+        is_cut_ = rises & (abs(nc) < k);
+        slope_ = select(is_cut_, k, Real(1));
+        const Real inverse_k = Real(1) / slope_;
+        const auto gaps = detail::horizon_gaps({a_, b_, c_}, height, slope_);
         const auto sinks = nc < Real(0);
         const Real lower = select(sinks, gaps.larger, gaps.smaller); // 1 - h0
         const Real upper = select(sinks, gaps.smaller, gaps.larger); // 1 + h0
@@ -85,7 +91,6 @@ public:
         h_ = sign * aside;
         shear_ = sign * dot(h, upwards);
         narrowing_ = (c_ * inverse_distance) * (a_ * b_ * inverse_k);
-        slope_ = select(is_cut_, k, Real(1));
         along_across_ = dot(p, across);
         along_up_ = dot(p, upwards);
 

@@ -17,16 +17,11 @@
 
 NUSSELT_NAMESPACE_BEGIN
 
-/// Whether the horizon z = 0 does not cut a cone that is above it, or only because rounding tilts the cone: half-spaces
-/// would lose all but a sliver otherwise.
+/// Whether the horizon z = 0 does not cut a cone that is above it, but for rounding.
 template <class Real>
 NUSSELT_INLINE mask_t<Real> is_above_horizon(const EllipticCone<Real>& cone) noexcept {
-    const auto extent_of = [](const Real& height, const Real& tangent) {
-        constexpr auto kRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
-        return max(abs(height) - Real(kRounding), Real(0)) * tangent;
-    };
-    return cone.e3.z * cone.c >=
-           detail::hypotenuse(extent_of(cone.e1.z, cone.a), extent_of(cone.e2.z, cone.b));
+    const Vec3<Real> height = detail::heights_of_axes(cone);
+    return height.z * cone.c >= detail::hypotenuse(height.x * cone.a, height.y * cone.b);
 }
 
 /// \tparam Real float, double, long double or a pack.

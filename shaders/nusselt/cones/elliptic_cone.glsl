@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ 2fbeb42a4191
+// Follows include/nusselt/cones/elliptic_cone.h @ ee3cadd0562f
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -27,12 +27,16 @@ struct EllipticCone {
     bool is_visible;       ///< false for a light without extent, and on its rim
 };
 
-/// c, or the least one for which places on the rim have digits left: half-spaces count as cones with large angles. A
-/// half-space whose tilt is not a matter of rounding stays cut.
-float bounded_c(const EllipticCone cone) {
-    float rounding = 8.0 * kNusseltEpsilon;
-    float narrow = nusselt_min(cone.a, cone.b);
-    return nusselt_max(cone.c, nusselt_max(rounding * narrow, rounding - narrow));
+/// The least angle that is not a matter of rounding.
+const float kNusseltConeRounding = 8.0 * kNusseltEpsilon;
+
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if they may be due to rounding:
+/// otherwise, the horizon would cut half-spaces whose rim lies in it.
+vec3 heights_of_axes(const EllipticCone cone) {
+    vec3 height = vec3(cone.e1.z, cone.e2.z, cone.e3.z);
+    if (abs(height.x) <= kNusseltConeRounding) height.x = 0.0;
+    if (abs(height.y) <= kNusseltConeRounding) height.y = 0.0;
+    return height;
 }
 
 /// The point (sigma, tau) of the unit disk from which the light was made.

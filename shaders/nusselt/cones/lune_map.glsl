@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_LUNE_MAP_GLSL
 #define NUSSELT_CONES_LUNE_MAP_GLSL
-// Follows include/nusselt/cones/lune_map.h @ aa5f59606409
+// Follows include/nusselt/cones/lune_map.h @ 2d602e42332a
 /// The rim of an elliptic cone between two horizons, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/lune_map.h.
 
@@ -121,11 +121,11 @@ LuneChord lune_map_chord(const LuneMap self, vec3 normal, vec3 out_of) {
 /// Unless the cone is clipped, only is_clipped and is_lit are valid.
 /// \param normal of the second horizon, (x, 0, z), of unit length.
 LuneMap make_lune_map(const EllipticCone cone, vec3 normal) {
-    // A half-space is a cone with a large angle; so nothing is infinite.
     LuneMap self;
     float a = cone.a;
     float b = cone.b;
-    float c = bounded_c(cone);
+    // Half-spaces count as cones with large angles, for which points of the rim have digits left.
+    float c = nusselt_max(cone.c, kNusseltConeRounding);
     self.lengths = vec3(a, b, c);
     bool wide = nusselt_min(a, b) > kNusseltTiny;
 

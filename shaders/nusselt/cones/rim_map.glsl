@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 00c1dab94681
+// Follows include/nusselt/cones/rim_map.h @ 6b5fd0874f6c
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -80,23 +80,29 @@ float rim_map_angle(const RimMap self, vec2 point) {
 }
 
 RimMap make_rim_map(const EllipticCone cone) {
-    // A half-space is a cone with a large angle; so nothing is infinite.
     RimMap self;
     self.a = cone.a;
     self.b = cone.b;
-    self.c = bounded_c(cone);
 
     // Find the horizon in the disk, n_1 a s + n_2 b t + n_3 c = 0, as the height along e_n, which leads up.
-    float na = cone.e1.z * self.a;
-    float nb = cone.e2.z * self.b;
-    float nc = cone.e3.z * self.c;
+    vec3 height = heights_of_axes(cone);
+    float na = height.x * self.a;
+    float nb = height.y * self.b;
     float k = hypotenuse(na, nb);
-    self.is_cut = abs(nc) < k && nusselt_min(self.a, self.b) > kNusseltTiny;
-    float inverse_k = 1.0 / (self.is_cut ? k : 1.0);
-    self.up = self.is_cut ? vec2(na, nb) * inverse_k : vec2(1.0, 0.0);
+    bool rises = k > 0.0 && nusselt_min(self.a, self.b) > kNusseltTiny;
+    self.up = rises ? vec2(na, nb) * (1.0 / k) : vec2(1.0, 0.0);
+    // Half-spaces count as cones with large angles, for which heights of points of the rim have digits left and, of a rim
+    // that is all but a line, so have points at both ends.
+    float extent_up = hypotenuse(self.a * self.up.x, self.b * self.up.y);
+    float least =
+        nusselt_max(kNusseltConeRounding * extent_up, kNusseltConeRounding - nusselt_min(self.a, self.b));
+    self.c = nusselt_max(cone.c, least);
+    float nc = height.z * self.c;
+    self.is_cut = rises && abs(nc) < k;
+    self.slope = self.is_cut ? k : 1.0;
+    float inverse_k = 1.0 / self.slope;
     float larger;
-    horizon_gaps(vec3(self.a, self.b, self.c), vec3(cone.e1.z, cone.e2.z, cone.e3.z), self.is_cut ? k : 1.0, self.gap,
-                 larger);
+    horizon_gaps(vec3(self.a, self.b, self.c), height, self.slope, self.gap, larger);
     float lower = nc < 0.0 ? larger : self.gap; // 1 - h0
     float upper = nc < 0.0 ? self.gap : larger; // 1 + h0
     self.height = nc * inverse_k;
@@ -126,7 +132,6 @@ RimMap make_rim_map(const EllipticCone cone) {
     self.h = side * aside;
     self.shear = side * dot(h, upwards);
     self.narrowing = (self.c * inverse_distance) * (self.a * self.b * inverse_k);
-    self.slope = self.is_cut ? k : 1.0;
     self.along_across = dot(p, across);
     self.along_up = dot(p, upwards);
 

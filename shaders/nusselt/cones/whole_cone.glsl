@@ -1,20 +1,15 @@
 #ifndef NUSSELT_CONES_WHOLE_CONE_GLSL
 #define NUSSELT_CONES_WHOLE_CONE_GLSL
-// Follows include/nusselt/cones/whole_cone.h @ 2aecc6785808
+// Follows include/nusselt/cones/whole_cone.h @ 7f93e47492fd
 /// Sampling of an elliptic cone above the horizon in proportion to the cosine at the surface. Twin of
 /// include/nusselt/cones/whole_cone.h, where the method is described, with two steps.
 
 #include "../cones/cone_sweep.glsl"
 
-float whole_cone_extent(float height, float tangent) {
-    return nusselt_max(abs(height) - 8.0 * kNusseltEpsilon, 0.0) * tangent;
-}
-
-/// Whether the horizon z = 0 does not cut a cone that is above it, or only because rounding tilts the cone: half-spaces
-/// would lose all but a sliver otherwise.
+/// Whether the horizon z = 0 does not cut a cone that is above it, but for rounding.
 bool is_above_horizon(const EllipticCone cone) {
-    return cone.e3.z * cone.c >=
-           hypotenuse(whole_cone_extent(cone.e1.z, cone.a), whole_cone_extent(cone.e2.z, cone.b));
+    vec3 height = heights_of_axes(cone);
+    return height.z * cone.c >= hypotenuse(height.x * cone.a, height.y * cone.b);
 }
 
 struct WholeCone {
