@@ -275,7 +275,7 @@ void expect_lit_long_half_spaces() {
                                                   {1, 0, along * kEpsilon},
                                                   {0, width, across * kEpsilon * width}};
                 const auto expect_lit = [&](const auto& technique, const auto& integrand, T measure) {
-                    EXPECT_NEAR(technique.measure() / measure, 1, T(0.02))
+                    EXPECT_NEAR(technique.measure() / measure, 1, T(0.05))
                         << width << " " << along << " " << across;
                     EXPECT_NEAR(mean_of_samples<T>(technique, integrand) / measure, 1, T(0.02))
                         << width << " " << along << " " << across;
