@@ -73,12 +73,13 @@ namespace detail {
 template <class Real>
 inline constexpr auto kConeRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
 
-/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if they may be due to rounding:
-/// otherwise, the horizon would cut half-spaces whose rim lies in it.
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space and
+/// rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
 template <class Real>
 NUSSELT_INLINE Vec3<Real> heights_of_axes(const EllipticCone<Real>& cone) noexcept {
-    const auto significant = [](const Real& height) {
-        return select(abs(height) > Real(kConeRounding<Real>), height, Real(0));
+    const auto is_half_space = cone.c < Real(kConeRounding<Real>);
+    const auto significant = [&](const Real& height) {
+        return select(is_half_space & (abs(height) <= Real(kConeRounding<Real>)), Real(0), height);
     };
     return {significant(cone.e1.z), significant(cone.e2.z), cone.e3.z};
 }

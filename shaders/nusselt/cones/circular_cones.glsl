@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_CIRCULAR_CONES_GLSL
 #define NUSSELT_CONES_CIRCULAR_CONES_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ ee3cadd0562f
+// Follows include/nusselt/cones/elliptic_cone.h @ 43bf7dcc8ed2
 /// The cones of spheres and disks without iteration. Twin of the second half of include/nusselt/cones/elliptic_cone.h.
 
 #include "../cones/elliptic_cone.glsl"

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_ELLIPTIC_CONE_GLSL
 #define NUSSELT_CONES_ELLIPTIC_CONE_GLSL
-// Follows include/nusselt/cones/elliptic_cone.h @ ee3cadd0562f
+// Follows include/nusselt/cones/elliptic_cone.h @ 43bf7dcc8ed2
 /// Elliptic cones: what a point sees of a disk, an ellipse, a sphere or an ellipsoid. Twin of
 /// include/nusselt/cones/elliptic_cone.h, for ellipses: spheres and disks are ellipsoids and ellipses here.
 
@@ -30,12 +30,13 @@ struct EllipticCone {
 /// The least angle that is not a matter of rounding.
 const float kNusseltConeRounding = 8.0 * kNusseltEpsilon;
 
-/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if they may be due to rounding:
-/// otherwise, the horizon would cut half-spaces whose rim lies in it.
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space and
+/// rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
 vec3 heights_of_axes(const EllipticCone cone) {
     vec3 height = vec3(cone.e1.z, cone.e2.z, cone.e3.z);
-    if (abs(height.x) <= kNusseltConeRounding) height.x = 0.0;
-    if (abs(height.y) <= kNusseltConeRounding) height.y = 0.0;
+    bool is_half_space = cone.c < kNusseltConeRounding;
+    if (is_half_space && abs(height.x) <= kNusseltConeRounding) height.x = 0.0;
+    if (is_half_space && abs(height.y) <= kNusseltConeRounding) height.y = 0.0;
     return height;
 }
 
