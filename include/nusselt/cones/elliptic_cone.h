@@ -69,12 +69,12 @@ struct EllipticCone {
 
 namespace detail {
 
-/// The least angle that is not a matter of rounding.
+/// Angles up to this one may be a matter of rounding.
 template <class Real>
 inline constexpr auto kConeRounding = 8 * std::numeric_limits<scalar_t<Real>>::epsilon();
 
-/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space and
-/// rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space up to
+/// rounding, and rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
 template <class Real>
 NUSSELT_INLINE Vec3<Real> heights_of_axes(const EllipticCone<Real>& cone) noexcept {
     const auto is_half_space = cone.c < Real(kConeRounding<Real>);

@@ -47,12 +47,14 @@ public:
         const Vec3<Real> height = detail::heights_of_axes(cone);
         const Real na = height.x * a_, nb = height.y * b_;
         const Real k = detail::hypotenuse(na, nb);
-        const auto rises = (k > Real(0)) & (min(a_, b_) > Real(kTiny<Scalar>));
+        const auto rises =
+            (k >= Real(std::numeric_limits<Scalar>::min())) & (min(a_, b_) > Real(kTiny<Scalar>));
         const Real inverse = Real(1) / select(rises, k, Real(1));
         up_ = {select(rises, na * inverse, Real(1)), select(rises, nb * inverse, Real(0))};
-        // Half-spaces count as cones with large angles, for which heights of points of the rim have digits left and, of a
-        // rim that is all but a line, so have points at both ends.
-        constexpr Scalar kRounding = detail::kConeRounding<Real>;
+        // Half-spaces count as cones with large angles, so that heights of points of the rim have digits left. If the
+        // rim is all but a line, points at both of its ends have digits left, too. The bound is less than any height
+        // that counts, whatever rounding does: each half-space is above the horizon, cut by it or below it.
+        constexpr Scalar kRounding = Scalar(0.999f) * detail::kConeRounding<Real>;
         const Real extent_up = detail::hypotenuse(a_ * up_.x, b_ * up_.y);
         c_ = max(cone.c, max(Real(kRounding) * extent_up, Real(kRounding) - min(a_, b_)));
         const Real nc = height.z * c_;

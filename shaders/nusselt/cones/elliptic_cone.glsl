@@ -27,11 +27,11 @@ struct EllipticCone {
     bool is_visible;       ///< false for a light without extent, and on its rim
 };
 
-/// The least angle that is not a matter of rounding.
+/// Angles up to this one may be a matter of rounding.
 const float kNusseltConeRounding = 8.0 * kNusseltEpsilon;
 
-/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space and
-/// rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
+/// The heights of the axes of a cone above the horizon z = 0. Those of e1 and e2 are 0 if the cone is a half-space up to
+/// rounding, and rounding may cause them: otherwise, the horizon would cut half-spaces whose rim lies in it.
 vec3 heights_of_axes(const EllipticCone cone) {
     vec3 height = vec3(cone.e1.z, cone.e2.z, cone.e3.z);
     bool is_half_space = cone.c < kNusseltConeRounding;

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 6b5fd0874f6c
+// Follows include/nusselt/cones/rim_map.h @ bf4891417ceb
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -89,13 +89,14 @@ RimMap make_rim_map(const EllipticCone cone) {
     float na = height.x * self.a;
     float nb = height.y * self.b;
     float k = hypotenuse(na, nb);
-    bool rises = k > 0.0 && nusselt_min(self.a, self.b) > kNusseltTiny;
+    bool rises = k >= kNusseltSmallestNormal && nusselt_min(self.a, self.b) > kNusseltTiny;
     self.up = rises ? vec2(na, nb) * (1.0 / k) : vec2(1.0, 0.0);
-    // Half-spaces count as cones with large angles, for which heights of points of the rim have digits left and, of a rim
-    // that is all but a line, so have points at both ends.
+    // Half-spaces count as cones with large angles, so that heights of points of the rim have digits left. If the rim
+    // is all but a line, points at both of its ends have digits left, too. The bound is less than any height that
+    // counts, whatever rounding does: each half-space is above the horizon, cut by it or below it.
+    const float kRounding = 0.999 * kNusseltConeRounding;
     float extent_up = hypotenuse(self.a * self.up.x, self.b * self.up.y);
-    float least =
-        nusselt_max(kNusseltConeRounding * extent_up, kNusseltConeRounding - nusselt_min(self.a, self.b));
+    float least = nusselt_max(kRounding * extent_up, kRounding - nusselt_min(self.a, self.b));
     self.c = nusselt_max(cone.c, least);
     float nc = height.z * self.c;
     self.is_cut = rises && abs(nc) < k;
