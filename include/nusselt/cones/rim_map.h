@@ -47,8 +47,9 @@ public:
         const Vec3<Real> height = detail::heights_of_axes(cone);
         const Real na = height.x * a_, nb = height.y * b_;
         const Real k = detail::hypotenuse(na, nb);
-        const auto rises =
-            (k >= Real(std::numeric_limits<Scalar>::min())) & (min(a_, b_) > Real(kTiny<Scalar>));
+        const auto leans = k >= Real(std::numeric_limits<Scalar>::min());
+        const auto wide = min(a_, b_) > Real(kTiny<Scalar>);
+        const auto rises = leans & wide;
         const Real inverse = Real(1) / select(rises, k, Real(1));
         up_ = {select(rises, na * inverse, Real(1)), select(rises, nb * inverse, Real(0))};
         // Half-spaces count as cones with large angles, so that heights of points of the rim have digits left. If the

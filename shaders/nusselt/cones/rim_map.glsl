@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ bf4891417ceb
+// Follows include/nusselt/cones/rim_map.h @ 50f5e53c86dd
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
