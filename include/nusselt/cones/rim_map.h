@@ -61,7 +61,7 @@ public:
         const Real nc = height.z * c_;
         is_cut_ = rises & (abs(nc) < k);
         slope_ = select(is_cut_, k, Real(1));
-        const Real inverse_k = Real(1) / slope_;
+        const Real inverse_k = select(is_cut_, inverse, Real(1));
         const auto gaps = detail::horizon_gaps({a_, b_, c_}, height, slope_);
         const auto sinks = nc < Real(0);
         const Real lower = select(sinks, gaps.larger, gaps.smaller); // 1 - h0

@@ -1,6 +1,6 @@
 #ifndef NUSSELT_CONES_RIM_MAP_GLSL
 #define NUSSELT_CONES_RIM_MAP_GLSL
-// Follows include/nusselt/cones/rim_map.h @ 50f5e53c86dd
+// Follows include/nusselt/cones/rim_map.h @ d71281903dc6
 /// The rim of an elliptic cone that a horizon cuts, as a function of z in [-1, 1] for which the measure of a sweep is
 /// smooth. Twin of include/nusselt/cones/rim_map.h.
 
@@ -90,7 +90,8 @@ RimMap make_rim_map(const EllipticCone cone) {
     float nb = height.y * self.b;
     float k = hypotenuse(na, nb);
     bool rises = k >= kNusseltSmallestNormal && nusselt_min(self.a, self.b) > kNusseltTiny;
-    self.up = rises ? vec2(na, nb) * (1.0 / k) : vec2(1.0, 0.0);
+    float inverse = 1.0 / (rises ? k : 1.0);
+    self.up = rises ? vec2(na, nb) * inverse : vec2(1.0, 0.0);
     // Half-spaces count as cones with large angles, so that heights of points of the rim have digits left. If the rim
     // is all but a line, points at both of its ends have digits left, too. The bound is less than any height that
     // counts, whatever rounding does: each half-space is above the horizon, cut by it or below it.
@@ -101,7 +102,7 @@ RimMap make_rim_map(const EllipticCone cone) {
     float nc = height.z * self.c;
     self.is_cut = rises && abs(nc) < k;
     self.slope = self.is_cut ? k : 1.0;
-    float inverse_k = 1.0 / self.slope;
+    float inverse_k = self.is_cut ? inverse : 1.0;
     float larger;
     horizon_gaps(vec3(self.a, self.b, self.c), height, self.slope, self.gap, larger);
     float lower = nc < 0.0 ? larger : self.gap; // 1 - h0

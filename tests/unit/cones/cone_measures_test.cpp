@@ -252,12 +252,32 @@ nusselt::Vec3<T> moments(const Technique& technique, const Integrand& integrand)
     constexpr int kRows = 32;
     nusselt::Vec3<T> sum{0, 0, 0};
     for (int i = 0; i < kRows * kRows; ++i) {
-        const auto s = technique.sample({(T(i % kRows) + T(0.5)) / kRows, (T(i / kRows) + T(0.5)) / kRows});
+        const nusselt::Vec2<T> u{(T(i % kRows) + T(0.5)) / kRows, (T(i / kRows) + T(0.5)) / kRows};
+        const auto s = technique.sample(u);
         if (!(s.pdf > 0)) continue;
         const T weight = integrand(s.wi) / s.pdf;
         sum = sum + weight * nusselt::Vec3<T>{1, s.wi.x * s.wi.x, s.wi.y * s.wi.y};
     }
     return (T(1) / (kRows * kRows)) * sum;
+}
+
+/// What a technique integrates.
+template <class T>
+struct Integrals {
+    T measure;
+    nusselt::Vec3<T> moments;
+};
+template <class T, class Technique, class Integrand>
+Integrals<T> integrals(const Technique& technique, const Integrand& integrand) {
+    return {technique.measure(), moments<T>(technique, integrand)};
+}
+
+template <class T>
+void expect_close(const Integrals<T>& got, const Integrals<T>& expected) {
+    EXPECT_NEAR(got.measure / expected.measure, 1, T(0.05));
+    EXPECT_NEAR(got.moments.x / expected.moments.x, 1, T(0.02));
+    EXPECT_NEAR(got.moments.y / expected.moments.y, 1, T(0.03));
+    EXPECT_NEAR(got.moments.z / expected.moments.z, 1, T(0.03));
 }
 
 /// Long lights that fill the half-space above the surface but for a tilt, which may be along the light, across it or
@@ -268,40 +288,58 @@ void expect_lit_long_half_spaces() {
     constexpr int kSteps = nusselt::kConeSteps<T>, kPlaces = nusselt::kFineConePlaces;
     const LtcCoefficients<T> coefficients{T(0.35), T(-0.08), T(0.4), T(0.05), T(0.9), 1};
     const Ltc<T> lobe(coefficients);
+    const auto cosine = [](const auto& wi) { return wi.z; };
+    const auto one = [](const auto&) { return T(1); };
+    const auto density = [&](const auto& wi) { return lobe.density(wi); };
     const nusselt::Disk<T> flat{{0, 0, 0}, {0, 0, 1}, 1};
+    const auto by_cosine = integrals<T>(ConeProjectedSolidAngle<T, nusselt::Disk>(flat), cosine);
+    const auto by_solid_angle = integrals<T>(nusselt::ConeClippedSolidAngle<T, nusselt::Disk>(flat), one);
+    const auto by_density =
+        integrals<T>(nusselt::ConeClippedLtc<T, nusselt::Disk, kSteps, kPlaces>(flat, lobe), density);
     constexpr T kTilts[] = {0, T(0.1), 1, 7, T(8.5), -20, 1000};
     for (const T height : {T(0.01), T(20)}) {
         for (const T width : {T(1) / 10, T(1) / 32, T(1) / 100, T(1) / 1000}) {
             for (const T along : kTilts) {
                 for (const T across : kTilts) {
+                    SCOPED_TRACE(testing::Message() << "height " << height << ", width " << width
+                                                    << ", tilts " << along << " " << across);
                     const nusselt::Ellipse<T> ellipse{
                         {0, 0, height * kEpsilon},
                         {T(0.8), T(0.6), along * kEpsilon},
                         {T(-0.6) * width, T(0.8) * width, across * kEpsilon * width}};
-                    const auto expect_lit = [&](const auto& technique, const auto& reference,
-                                                const auto& integrand) {
-                        SCOPED_TRACE(testing::Message() << "height " << height << ", width " << width
-                                                        << ", tilts " << along << " " << across);
-                        EXPECT_NEAR(technique.measure() / reference.measure(), 1, T(0.05));
-                        const nusselt::Vec3<T> got = moments<T>(technique, integrand);
-                        const nusselt::Vec3<T> expected = moments<T>(reference, integrand);
-                        EXPECT_NEAR(got.x / expected.x, 1, T(0.02));
-                        EXPECT_NEAR(got.y / expected.y, 1, T(0.03));
-                        EXPECT_NEAR(got.z / expected.z, 1, T(0.03));
-                    };
-                    expect_lit(ConeProjectedSolidAngle<T, nusselt::Ellipse, kSteps, kPlaces>(ellipse),
-                               ConeProjectedSolidAngle<T, nusselt::Disk>(flat),
-                               [](const auto& wi) { return wi.z; });
-                    expect_lit(nusselt::ConeClippedSolidAngle<T, nusselt::Ellipse, kPlaces>(ellipse),
-                               nusselt::ConeClippedSolidAngle<T, nusselt::Disk>(flat),
-                               [](const auto&) { return T(1); });
-                    expect_lit(nusselt::ConeClippedLtc<T, nusselt::Ellipse, kSteps, kPlaces>(ellipse, lobe),
-                               nusselt::ConeClippedLtc<T, nusselt::Disk, kSteps, kPlaces>(flat, lobe),
-                               [&](const auto& wi) { return lobe.density(wi); });
+                    const ConeProjectedSolidAngle<T, nusselt::Ellipse, kSteps, kPlaces> projected(ellipse);
+                    const nusselt::ConeClippedSolidAngle<T, nusselt::Ellipse, kPlaces> clipped(ellipse);
+                    const nusselt::ConeClippedLtc<T, nusselt::Ellipse, kSteps, kPlaces> on_lobe(ellipse,
+                                                                                                lobe);
+                    expect_close(integrals<T>(projected, cosine), by_cosine);
+                    expect_close(integrals<T>(clipped, one), by_solid_angle);
+                    expect_close(integrals<T>(on_lobe, density), by_density);
                 }
             }
         }
     }
+}
+
+/// A wrong sampler, of an eighth of the light.
+template <class Technique>
+struct EighthOf {
+    Technique technique;
+
+    template <class T>
+    auto sample(const nusselt::Vec2<T>& u) const {
+        return technique.sample({u.x / 8, u.y});
+    }
+};
+
+TEST(ConeMeasuresTest, MomentsTellWhetherSamplesCoverTheLight) {
+    using Technique = ConeProjectedSolidAngle<float, nusselt::Disk>;
+    const Technique technique(nusselt::Disk<float>{{0, 0, 0}, {0, 0, 1}, 1});
+    const auto cosine = [](const auto& wi) { return wi.z; };
+    const auto right = moments<float>(technique, cosine);
+    const auto wrong = moments<float>(EighthOf<Technique>{technique}, cosine);
+    EXPECT_NEAR(wrong.x / right.x, 1, 0.001);
+    EXPECT_GT(std::fabs(wrong.y / right.y - 1), 0.3);
+    EXPECT_GT(std::fabs(wrong.z / right.z - 1), 0.3);
 }
 
 TEST(ConeMeasuresTest, HalfSpacesThatRoundingTiltsAreLit) {
